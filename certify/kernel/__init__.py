@@ -1,0 +1,6 @@
+"""The trusted part: whatever this package accepts is proved, whoever wrote the certificate.
+
+Standard library and sympy only; nothing outside this package is imported. Read the modules in
+this order: hexahedron, triangulation, chirotope, embedding, jacobian, orientations, refutation,
+certificate, check.
+"""

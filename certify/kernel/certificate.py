@@ -1,0 +1,248 @@
+"""Strict reading of one certificate: what is not exactly as specified is refused.
+
+A certificate is a JSON object, format "certify-pattern/1"; CHECKING.md specifies it field by field.
+Reading it establishes only that it is well formed. What it claims is decided in check.py.
+"""
+
+import json
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+from fractions import Fraction
+from hashlib import sha256
+from pathlib import Path
+from typing import Any, TypeAlias
+
+from certify.kernel.chirotope import QUADRUPLES, Point
+from certify.kernel.hexahedron import BOUNDARY_TYPES, VERTICES, Simplex
+from certify.kernel.refutation import FinalPolynomial
+
+FORMAT = "certify-pattern/1"
+QUESTIONS = ("realizable", "convex", "valid")
+MAX_CERTIFICATE_BYTES = 1 << 20
+MAX_PROOF_BYTES = 1 << 24
+MAX_DIGITS = 40
+"""Longest numerator or denominator: long enough for any honest point, too short to stall."""
+
+_NAME = re.compile(r"([5-9]|1[0-5])_A?[A-Z]")
+_QUADRUPLE = {"".join(map(str, quadruple)): quadruple for quadruple in QUADRUPLES}
+_FRACTION = re.compile(r"-?(0|[1-9][0-9]*)/[1-9][0-9]*")
+
+
+class Malformed(ValueError):
+    """The file is not a certificate; the message says in one line where it departs from one."""
+
+
+@dataclass(frozen=True)
+class Yes:
+    """The eight points that show it, vertex 1 first."""
+
+    points: tuple[Point, ...]
+
+
+@dataclass(frozen=True)
+class No:
+    """The clausal proof that shows it (a file below the root), and polynomials it builds on."""
+
+    proof: str
+    digest: str
+    final_polynomials: tuple[FinalPolynomial, ...]
+
+
+@dataclass(frozen=True)
+class Open:
+    """Nobody has found out yet."""
+
+
+Answer: TypeAlias = Yes | No | Open
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """One pattern: its tetrahedra, what is said of them, and the answers to the questions."""
+
+    pattern: str
+    boundary: str
+    instances: int
+    tetrahedra: tuple[Simplex, ...]
+    answers: dict[str, Answer]
+
+
+def read_certificate(path: Path) -> Certificate:
+    """Read the certificate in a file, which bears the pattern's name, or raise Malformed."""
+    record = _object(_parse(read_file(path, MAX_CERTIFICATE_BYTES)), "the file")
+    _keys(record, ("format", "pattern", "boundary", "instances", "tetrahedra", *QUESTIONS))
+    if record["format"] != FORMAT:
+        raise Malformed(f'format is not "{FORMAT}"')
+    pattern = _text(record["pattern"], "pattern")
+    if not _NAME.fullmatch(pattern) or path.name != f"{pattern}.json":
+        raise Malformed("pattern is not a pattern's name, or not that of the file")
+    boundary = _text(record["boundary"], "boundary")
+    if boundary not in BOUNDARY_TYPES:
+        raise Malformed("boundary is not one of the letters a to g")
+    tetrahedra = tuple(
+        tuple(_integer(vertex, "a vertex") for vertex in _list(row, "a tetrahedron"))
+        for row in _list(record["tetrahedra"], "tetrahedra")
+    )
+    if not set(tetrahedra) <= set(QUADRUPLES) or list(tetrahedra) != sorted(set(tetrahedra)):
+        raise Malformed("tetrahedra are not increasing quadruples of 1..8 in increasing order")
+    return Certificate(
+        pattern=pattern,
+        boundary=boundary,
+        instances=_integer(record["instances"], "instances"),
+        tetrahedra=tetrahedra,
+        answers={question: _answer(record[question], pattern, question) for question in QUESTIONS},
+    )
+
+
+def read_proof(root: Path, answer: No) -> str:
+    """Return the text of the proof that an answer names, or raise Malformed."""
+    path = root / answer.proof
+    if path.resolve().parent != (root / "proofs").resolve():
+        raise Malformed(f"{answer.proof} is not in the folder of proofs")
+    content = read_file(path, MAX_PROOF_BYTES)
+    if sha256(content).hexdigest() != answer.digest:
+        raise Malformed(f"{answer.proof} has not the stated sha256")
+    try:
+        return content.decode("ascii")
+    except UnicodeDecodeError:
+        raise Malformed(f"{answer.proof} is not ASCII text") from None
+
+
+def read_file(path: Path, limit: int) -> bytes:
+    """Return the content of a regular file of at most ``limit`` bytes, or raise Malformed."""
+    try:
+        if not path.is_file():
+            raise Malformed(f"{path.name} is missing or no regular file")
+        with path.open("rb") as file:
+            content = file.read(limit + 1)
+    except OSError as error:
+        raise Malformed(f"{path.name} cannot be read: {error.strerror}") from None
+    if len(content) > limit:
+        raise Malformed(f"{path.name} is larger than {limit} bytes")
+    return content
+
+
+def _parse(content: bytes) -> object:
+    def unique(pairs: list[tuple[str, object]]) -> dict[str, object]:
+        record = dict(pairs)
+        if len(record) < len(pairs):
+            raise Malformed("a key occurs twice in one object")
+        return record
+
+    def refuse(literal: str) -> object:
+        raise Malformed(f"{literal[:20]} is not an integer")
+
+    def integer(literal: str) -> int:
+        if len(literal) > MAX_DIGITS:
+            raise Malformed(f"an integer has more than {MAX_DIGITS} characters")
+        return int(literal)
+
+    try:
+        return json.loads(
+            content.decode("utf-8"),
+            object_pairs_hook=unique,
+            parse_int=integer,
+            parse_float=refuse,
+            parse_constant=refuse,
+        )
+    except UnicodeDecodeError:
+        raise Malformed("not UTF-8 text") from None
+    except json.JSONDecodeError as error:
+        raise Malformed(f"not JSON: {error}") from None
+    except RecursionError:
+        raise Malformed("nested too deeply") from None
+
+
+def _answer(value: object, pattern: str, question: str) -> Answer:
+    record = _object(value, question)
+    match record.get("answer"):
+        case "open":
+            _keys(record, ("answer",))
+            return Open()
+        case "yes":
+            _keys(record, ("answer", "points"))
+            points = tuple(map(_point, _list(record["points"], "points")))
+            if len(points) != len(VERTICES):
+                raise Malformed(f"{question}: there are not eight points")
+            return Yes(points)
+        case "no":
+            _keys(record, ("answer", "proof", "sha256"), optional=("final_polynomials",))
+            proof = _text(record["proof"], "proof")
+            if proof != f"proofs/{pattern}.{question}.lrat":
+                raise Malformed(f"{question}: proof is not proofs/{pattern}.{question}.lrat")
+            polynomials = _list(record.get("final_polynomials", []), "final_polynomials")
+            digest = _text(record["sha256"], "sha256")
+            return No(proof, digest, tuple(map(_final_polynomial, polynomials)))
+    raise Malformed(f'{question}: answer is not "yes", "no" or "open"')
+
+
+def _point(value: object) -> Point:
+    point = tuple(map(_coordinate, _list(value, "a point")))
+    if len(point) != 3:
+        raise Malformed("a point has not three coordinates")
+    return point
+
+
+def _coordinate(value: object) -> Fraction:
+    if isinstance(value, str) and len(value) <= 2 * MAX_DIGITS and _FRACTION.fullmatch(value):
+        return Fraction(value)
+    return Fraction(_integer(value, "a coordinate that is no fraction p/q"))
+
+
+def _final_polynomial(value: object) -> FinalPolynomial:
+    record = _object(value, "a final polynomial")
+    _keys(record, ("signs", "inequalities"))
+    signs = {}
+    for key, value in _object(record["signs"], "signs").items():
+        if key not in _QUADRUPLE or _integer(value, "a sign") not in (-1, 0, 1):
+            raise Malformed("signs does not map quadruples like 1234 to -1, 0 or 1")
+        signs[_QUADRUPLE[key]] = value
+    inequalities = []
+    for row in _list(record["inequalities"], "inequalities"):
+        multiplier, indices = _pair(row)
+        six = tuple(_integer(v, "a vertex") for v in _list(indices, "the indices"))
+        if len(six) != 6 or len(set(six)) != 6 or not set(six) <= set(VERTICES):
+            raise Malformed("an inequality has not six different vertices")
+        inequalities.append((_integer(multiplier, "a multiplier"), six))
+    return FinalPolynomial(signs, tuple(inequalities))
+
+
+def _pair(value: object) -> tuple[object, object]:
+    row = _list(value, "an inequality")
+    if len(row) != 2:
+        raise Malformed("an inequality is not [multiplier, vertices]")
+    return row[0], row[1]
+
+
+def _object(value: object, what: str) -> dict[str, Any]:
+    if not isinstance(value, dict):
+        raise Malformed(f"{what} is not an object")
+    return value
+
+
+def _list(value: object, what: str) -> list[Any]:
+    if not isinstance(value, list):
+        raise Malformed(f"{what} is not a list")
+    return value
+
+
+def _text(value: object, what: str) -> str:
+    if not isinstance(value, str):
+        raise Malformed(f"{what} is not a string")
+    return value
+
+
+def _integer(value: object, what: str) -> int:
+    if type(value) is not int:  # a bool is an int to isinstance
+        raise Malformed(f"{what} is not an integer")
+    return value
+
+
+def _keys(record: dict[str, Any], needed: Iterable[str], optional: Iterable[str] = ()) -> None:
+    for key in needed:
+        if key not in record:
+            raise Malformed(f'"{key}" is missing')
+    for key in record:
+        if key not in (*needed, *optional):
+            raise Malformed(f'"{key[:40]}" does not belong here')
