@@ -194,10 +194,10 @@ def _final_polynomial(value: object) -> FinalPolynomial:
     record = _object(value, "a final polynomial")
     _keys(record, ("signs", "inequalities"))
     signs = {}
-    for key, value in _object(record["signs"], "signs").items():
-        if key not in _QUADRUPLE or _integer(value, "a sign") not in (-1, 0, 1):
+    for key, sign in _object(record["signs"], "signs").items():
+        if key not in _QUADRUPLE or _integer(sign, "a sign") not in (-1, 0, 1):
             raise Malformed("signs does not map quadruples like 1234 to -1, 0 or 1")
-        signs[_QUADRUPLE[key]] = value
+        signs[_QUADRUPLE[key]] = sign
     inequalities = []
     for row in _list(record["inequalities"], "inequalities"):
         multiplier, indices = _pair(row)

@@ -7,12 +7,10 @@ from functools import lru_cache
 from pathlib import Path
 
 from certify.kernel.certificate import (
-    QUESTIONS,
     Answer,
     Certificate,
     Malformed,
     No,
-    Open,
     Yes,
     read_certificate,
     read_proof,

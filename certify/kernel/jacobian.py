@@ -11,14 +11,14 @@ so one that is not positive settles the matter the other way.
 
 from collections.abc import Sequence
 from itertools import product
-from math import comb
+from math import comb, prod
 from typing import TypeAlias
 
 from certify.kernel.chirotope import Point, determinant, integral
 from certify.kernel.embedding import NotRealized
 from certify.kernel.hexahedron import CORNERS
 
-Coefficients: TypeAlias = dict[tuple[int, int, int], int]
+Coefficients: TypeAlias = dict[tuple[int, ...], int]
 """(i, j, k) in {0,1,2}^3 -> a positive multiple, the same for all, of the Bernstein coefficient."""
 
 MAX_DEPTH = 6
@@ -35,14 +35,14 @@ def bernstein_coefficients(points: Sequence[Point]) -> Coefficients:
     B_a B_b = B^2_{a+b} / binomial(2, a+b). So coefficient (i,j,k) is a sum of determinants of
     edges, divided by the three binomials.
     """
-    vertex_at = {corner: vertex for vertex, corner in CORNERS.items()}
+    vertex_at: dict[tuple[int, ...], int] = {corner: v for v, corner in CORNERS.items()}
     scaled = dict(zip(CORNERS, integral(points), strict=True))
 
-    def edge(start: tuple[int, int, int], end: tuple[int, int, int]) -> list[int]:
+    def edge(start: tuple[int, ...], end: tuple[int, ...]) -> list[int]:
         tail, head = scaled[vertex_at[start]], scaled[vertex_at[end]]
         return [h - t for t, h in zip(tail, head, strict=True)]
 
-    total = dict.fromkeys(product(range(3), repeat=3), 0)
+    total: Coefficients = dict.fromkeys(product(range(3), repeat=3), 0)
     for v1, w1, u2, w2, u3, v3 in product(_BIT, repeat=6):
         total[u2 + u3, v1 + v3, w1 + w2] += determinant(
             [
@@ -51,15 +51,13 @@ def bernstein_coefficients(points: Sequence[Point]) -> Coefficients:
                 edge((u3, v3, 0), (u3, v3, 1)),
             ]
         )
-    return {
-        (i, j, k): value * 8 // (comb(2, i) * comb(2, j) * comb(2, k))
-        for (i, j, k), value in total.items()
-    }
+    return {index: value * 8 // prod(comb(2, i) for i in index) for index, value in total.items()}
 
 
 def halves(coefficients: Coefficients, axis: int) -> tuple[Coefficients, Coefficients]:
     """Return the coefficients, times four, on the two halves of the box (de Casteljau)."""
-    lower, upper = {}, {}
+    lower: Coefficients = {}
+    upper: Coefficients = {}
     for index in coefficients:
         if index[axis] == 0:
             i0, i1, i2 = ((*index[:axis], i, *index[axis + 1 :]) for i in range(3))

@@ -113,7 +113,7 @@ def excluded_signs(polynomial: FinalPolynomial) -> Clause:
         rest = ((s, t, a, d), (s, t, b, c))
         sign = _product_sign(smaller, polynomial.signs)
         sign_rest = _product_sign(rest, polynomial.signs)
-        if sign == 0 or sign_rest == sign:
+        if sign in (0, sign_rest):
             raise NotRefuted(f"the signs do not imply the inequality of {(s, t, a, b, c, d)}")
         strict = strict or sign_rest != 0
         for vertices in larger:
