@@ -1,0 +1,169 @@
+"""Proofs of unsatisfiability: found by a solver, trimmed to their core, given hints."""
+
+from collections import defaultdict
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from pysat.solvers import Solver
+
+from certify.kernel.orientations import Clause
+from certify.search.enumeration import SOLVER
+
+ROUNDS = 8
+"""How often a proof is looked for again in the core of the last one, as long as it shrinks."""
+
+
+class Step(NamedTuple):
+    """A clause, and the numbers of those that yield it by unit propagation, in this order."""
+
+    number: int
+    clause: Clause
+    hints: tuple[int, ...]
+
+
+def refute(formula: Sequence[Clause]) -> list[Step] | None:
+    """Return a trimmed proof that the formula is unsatisfiable, or None if it is satisfiable.
+
+    Clauses of the formula are numbered from 1, lemmas from there on.
+    """
+    numbers = list(range(1, len(formula) + 1))
+    best: list[Step] | None = None
+    for _ in range(ROUNDS):
+        lemmas = _solve([formula[number - 1] for number in numbers])
+        if lemmas is None:
+            return None
+        steps = trim([formula[number - 1] for number in numbers], lemmas)
+        steps = _renumber(steps, dict(enumerate(numbers, start=1)), len(formula))
+        if best is not None and _length(steps) >= _length(best):
+            break
+        best = steps
+        used = {hint for step in steps for hint in step.hints}
+        numbers = [number for number in numbers if number in used]
+    return best
+
+
+def model(formula: Sequence[Clause]) -> list[int] | None:
+    """Return a satisfying assignment, entry k - 1 being k or -k, or None if there is none."""
+    with Solver(SOLVER, bootstrap_with=formula) as solver:
+        return list(solver.get_model()) if solver.solve() else None
+
+
+def lrat(steps: Sequence[Step]) -> str:
+    """Return the proof in the LRAT format."""
+    return "".join(
+        f"{' '.join(map(str, (step.number, *step.clause, 0, *step.hints, 0)))}\n" for step in steps
+    )
+
+
+def drat(steps: Sequence[Step]) -> str:
+    """Return the proof in the DRAT format: the clauses alone."""
+    return "".join(f"{' '.join(map(str, (*step.clause, 0)))}\n" for step in steps)
+
+
+def trim(formula: Sequence[Clause], lemmas: Sequence[Clause]) -> list[Step]:
+    """Return, with hints, the lemmas that the last one needs (Wetzler, Heule and Hunt 2014)."""
+    clauses = [*formula, *lemmas]
+    propagator = Propagator(clauses)
+    needed = {len(clauses)}
+    steps = []
+    for number in range(len(clauses), len(formula), -1):
+        if number in needed:
+            hints = propagator.derive(clauses[number - 1], number, needed)
+            needed.update(hints)
+            steps.append(Step(number, clauses[number - 1], hints))
+    return steps[::-1]
+
+
+def _solve(formula: Sequence[Clause]) -> list[Clause] | None:
+    """Return the solver's lemmas, the last one empty, or None if the formula is satisfiable."""
+    with Solver(SOLVER, bootstrap_with=formula, with_proof=True) as solver:
+        if solver.solve():
+            return None
+        lines = [line.split() for line in solver.get_proof()]
+    lemmas = [tuple(int(word) for word in line[:-1]) for line in lines if line[0] != "d"]
+    if () not in lemmas:
+        lemmas.append(())
+    return lemmas[: lemmas.index(()) + 1]
+
+
+def _renumber(steps: Sequence[Step], names: dict[int, int], last: int) -> list[Step]:
+    """Give clauses of the formula the numbers in ``names``, and lemmas those after ``last``."""
+    for name, step in enumerate(steps, start=last + 1):
+        names[step.number] = name
+    return [
+        Step(names[step.number], step.clause, tuple(names[hint] for hint in step.hints))
+        for step in steps
+    ]
+
+
+def _length(steps: Sequence[Step]) -> int:
+    return sum(len(step.hints) for step in steps)
+
+
+class Propagator:
+    """Unit propagation with two watched literals over clauses numbered from 1."""
+
+    def __init__(self, clauses: Sequence[Clause]) -> None:
+        self.clauses = [[], *map(list, clauses)]
+        self.units = [number for number, clause in enumerate(self.clauses) if len(clause) == 1]
+        self.watching: defaultdict[int, list[int]] = defaultdict(list)
+        for number, clause in enumerate(self.clauses):
+            for literal in clause[:2]:
+                self.watching[literal].append(number)
+
+    def derive(self, clause: Clause, before: int, preferred: set[int]) -> tuple[int, ...]:
+        """Return numbers below ``before`` that propagate the negated clause to a contradiction.
+
+        Preferred clauses are propagated first, so that lemmas share as much as they can.
+        """
+        reason = {-literal: 0 for literal in clause}
+        trail = list(reason)
+        for number in sorted(self.units, key=lambda unit: unit not in preferred):
+            literal = self.clauses[number][0]
+            if number < before and -literal in reason:
+                return self._explain(number, reason, trail)
+            if number < before and literal not in reason:
+                reason[literal] = number
+                trail.append(literal)
+        conflict = self._propagate(reason, trail, before, preferred)
+        return self._explain(conflict, reason, trail)
+
+    def _propagate(
+        self, reason: dict[int, int], trail: list[int], before: int, preferred: set[int]
+    ) -> int:
+        """Extend the trail until a clause is false, and return its number."""
+        head = {True: 0, False: 0}
+        while head[False] < len(trail):
+            core = head[True] < len(trail)
+            false = -trail[head[core]]
+            head[core] += 1
+            for number in list(self.watching[false]):
+                if number >= before or (number in preferred) != core:
+                    continue
+                clause = self.clauses[number]
+                if clause[0] == false:
+                    clause[0], clause[1] = clause[1], clause[0]
+                other = clause[0]
+                for i in range(2, len(clause)):
+                    if -clause[i] not in reason:
+                        clause[1], clause[i] = clause[i], clause[1]
+                        self.watching[false].remove(number)
+                        self.watching[clause[1]].append(number)
+                        break
+                else:
+                    if -other in reason:
+                        return number
+                    if other not in reason:
+                        reason[other] = number
+                        trail.append(other)
+        raise ValueError("the clause does not follow by unit propagation")
+
+    def _explain(self, conflict: int, reason: dict[int, int], trail: list[int]) -> tuple[int, ...]:
+        """Return the reasons that the conflict needs, in the order of propagation."""
+        needed = {-literal for literal in self.clauses[conflict]}
+        hints = [conflict]
+        for literal in reversed(trail):
+            if literal in needed and reason[literal]:
+                hints.append(reason[literal])
+                needed.update(-other for other in self.clauses[reason[literal]])
+        return tuple(reversed(hints))
