@@ -55,7 +55,7 @@ class Verdict:
     @property
     def size(self) -> int:
         """The number of tetrahedra of the pattern."""
-        return int(self.pattern.split("_")[0])
+        return int(self.pattern.partition("_")[0])
 
 
 @dataclass(frozen=True)
@@ -90,7 +90,7 @@ def check_certificate(certificate: Certificate, root: Path) -> Verdict:
         raise Rejected(f"tetrahedra: {error}") from None
     instances = orbit(tetrahedra)
     claims = {
-        "pattern": (certificate.pattern.split("_")[0], str(len(tetrahedra))),
+        "pattern": (certificate.pattern.partition("_")[0], str(len(tetrahedra))),
         "boundary": (certificate.boundary, letter),
         "instances": (certificate.instances, len(instances)),
     }

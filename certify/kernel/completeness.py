@@ -15,7 +15,6 @@ from itertools import combinations
 from certify.kernel.chirotope import QUADRUPLES
 from certify.kernel.hexahedron import FACETS, VERTICES, Simplex, boundary_triangles, simplex
 from certify.kernel.orientations import Clause
-from certify.kernel.triangulation import triangles
 
 INNER: tuple[Simplex, ...] = tuple(q for q in QUADRUPLES if q not in set(map(simplex, FACETS)))
 """The 64 quadruples that are no facet: every tetrahedron of a triangulation is one of them."""

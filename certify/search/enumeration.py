@@ -13,8 +13,7 @@ SOLVER = "glucose4"
 
 
 class Pattern(NamedTuple):
-    """A class of triangulations: its boundary type, and the least instance with the
-    representative boundary of that type."""
+    """A class: its boundary type, and its least instance with the boundary of BOUNDARY_TYPES."""
 
     boundary: str
     tetrahedra: tuple[Simplex, ...]

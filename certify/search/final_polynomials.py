@@ -1,12 +1,14 @@
 """Final polynomials by linear programming: sign vectors that no eight points have."""
 
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations, permutations
-from math import gcd, lcm
-from typing import NamedTuple
+from math import gcd, lcm, prod
+from typing import NamedTuple, TypeAlias
 
 import cvxpy as cp
 import numpy as np
+from numpy.typing import NDArray
 from sympy import QQ
 from sympy.polys.matrices import DomainMatrix
 
@@ -16,14 +18,16 @@ from certify.kernel.orientations import Clause, has_sign
 from certify.kernel.refutation import FinalPolynomial, excluded_signs
 from certify.search.refutations import Step, model, refute
 
+Brackets: TypeAlias = tuple[tuple[int, ...], tuple[int, ...]]
+
 
 class Inequality(NamedTuple):
-    """|A| >= |B| for products A, B of two determinants, as refutation.py writes it."""
+    """|A| >= |B|, from A = B - C (see refutation.py): the brackets of A, of B and of C."""
 
     indices: tuple[int, ...]
-    larger: tuple[Simplex, Simplex]
-    smaller: tuple[Simplex, Simplex]
-    rest: tuple[Simplex, Simplex]
+    larger: Brackets
+    smaller: Brackets
+    rest: Brackets
     strict: bool
 
 
@@ -52,8 +56,8 @@ def sign_vector(assignment: Sequence[int]) -> dict[Simplex, int]:
 def inequalities(signs: Mapping[Simplex, int]) -> Iterator[Inequality]:
     """Yield the inequalities that the three-term Grassmann-Pluecker relations imply."""
 
-    def product(brackets: tuple[tuple[int, ...], tuple[int, ...]]) -> int:
-        return int(np.prod([signs[simplex(b)] * (-1) ** inversions(b) for b in brackets]))
+    def product(brackets: Brackets) -> int:
+        return prod(signs[simplex(b)] * (-1) ** inversions(b) for b in brackets)
 
     for s in combinations(VERTICES, 2):
         for four in combinations([v for v in VERTICES if v not in s], 4):
@@ -66,11 +70,7 @@ def inequalities(signs: Mapping[Simplex, int]) -> Iterator[Inequality]:
                 rest = ((*s, a, d), (*s, b, c))
                 sign, sign_rest = product(smaller), product(rest)
                 if sign not in (0, sign_rest):
-                    yield Inequality(
-                        (*s, a, b, c, d),
-                        *(tuple(map(simplex, pair)) for pair in (larger, smaller, rest)),
-                        strict=sign_rest != 0,
-                    )
+                    yield Inequality((*s, a, b, c, d), larger, smaller, rest, sign_rest != 0)
 
 
 def final_polynomial(signs: Mapping[Simplex, int]) -> FinalPolynomial | None:
@@ -91,7 +91,7 @@ def final_polynomial(signs: Mapping[Simplex, int]) -> FinalPolynomial | None:
     support = [i for i, value in enumerate(x.value) if value > 1e-9]
     used = [candidates[i] for i in support]
     multipliers = integer_kernel_vector(exponents[:, support])
-    assumed = {q for c in used for q in (*c.smaller, *c.rest)}
+    assumed = {simplex(bracket) for c in used for bracket in (*c.smaller, *c.rest)}
     return FinalPolynomial(
         {q: signs[q] for q in QUADRUPLES if q in assumed},
         tuple((m, c.indices) for m, c in zip(multipliers, used, strict=True)),
@@ -100,10 +100,12 @@ def final_polynomial(signs: Mapping[Simplex, int]) -> FinalPolynomial | None:
 
 def exponent_vector(inequality: Inequality) -> list[int]:
     """Return how often each determinant occurs on the larger side, less on the smaller."""
-    return [inequality.larger.count(q) - inequality.smaller.count(q) for q in QUADRUPLES]
+    surplus = Counter(map(simplex, inequality.larger))
+    surplus.subtract(map(simplex, inequality.smaller))
+    return [surplus[q] for q in QUADRUPLES]
 
 
-def integer_kernel_vector(matrix: np.ndarray) -> list[int]:
+def integer_kernel_vector(matrix: NDArray[np.int64]) -> list[int]:
     """Return the positive integer vector that spans the kernel of an integer matrix."""
     rows = [[QQ(int(entry)) for entry in row] for row in matrix]
     (vector,) = DomainMatrix(rows, matrix.shape, QQ).nullspace().to_list()

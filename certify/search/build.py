@@ -1,0 +1,129 @@
+"""Find everything again: every pattern, its answers, its name, its certificate and its proofs."""
+
+import json
+from collections.abc import Callable
+from hashlib import sha256
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from joblib import Parallel, delayed
+
+from certify.kernel.certificate import FORMAT, QUESTIONS
+from certify.kernel.orientations import convex_formula, realization_formula
+from certify.kernel.refutation import FinalPolynomial
+from certify.kernel.triangulation import label, orbit, orientation
+from certify.search.enumeration import Pattern, patterns
+from certify.search.final_polynomials import refute_with_polynomials
+from certify.search.paper import assign_names
+from certify.search.placement import place
+from certify.search.refutations import Step, drat, lrat
+
+
+class Refutation(NamedTuple):
+    """A clausal proof and the final polynomials that it builds on."""
+
+    steps: list[Step]
+    polynomials: list[FinalPolynomial]
+
+
+Finding = list[list[int]] | Refutation | None
+"""What was found for one question: points, or a refutation, or nothing."""
+
+
+def build(root: Path, jobs: int, report: Callable[[str], None]) -> None:
+    """Write certificates/ and proofs/ below ``root`` anew; ``report`` is told what is going on.
+
+    The result is determined by the code and the libraries' versions: every pattern has a
+    random generator of its own, seeded by its position, and no time limit is used.
+    """
+    report("enumerating the triangulations")
+    found = patterns()
+    findings = []
+    work = Parallel(n_jobs=jobs, return_as="generator")(
+        delayed(investigate)(pattern, seed) for seed, pattern in enumerate(found)
+    )
+    for number, answers in enumerate(work, start=1):
+        findings.append(answers)
+        report(f"{number} of {len(found)} patterns investigated")
+    facts = [
+        (len(pattern.tetrahedra), pattern.boundary, status(answers))
+        for pattern, answers in zip(found, findings, strict=True)
+    ]
+    for folder in ("certificates", "proofs"):
+        (root / folder).mkdir(parents=True, exist_ok=True)
+        for stale in (root / folder).iterdir():
+            stale.unlink()
+    for name, pattern, answers in zip(assign_names(facts), found, findings, strict=True):
+        write(root, name, pattern, answers)
+    report(f"{len(found)} certificates written")
+
+
+def investigate(pattern: Pattern, seed: int) -> dict[str, Finding]:
+    """Return what was found for each question: refutations first, then one point set for all."""
+    signs = orientation(pattern.tetrahedra)
+    rng = np.random.default_rng(seed)
+    answers: dict[str, Finding] = dict.fromkeys(QUESTIONS)
+    for question, formula in (("realizable", realization_formula), ("convex", convex_formula)):
+        if refutation := refute_with_polynomials(formula(signs)):
+            answers[question] = Refutation(*refutation)
+    if answers["realizable"]:
+        return answers
+    points = None
+    if not answers["convex"]:
+        points = place(signs, convex=True, valid=True, rng=rng)
+        if points is not None:
+            answers["valid"] = points.tolist()
+        else:
+            points = place(signs, convex=True, valid=False, rng=rng)
+        answers["convex"] = None if points is None else points.tolist()
+    if points is None:
+        points = place(signs, convex=False, valid=False, rng=rng)
+    answers["realizable"] = None if points is None else points.tolist()
+    return answers
+
+
+def status(answers: dict[str, Finding]) -> str:
+    """Return the status that the paper's table would print (see paper.py)."""
+    if isinstance(answers["realizable"], Refutation):
+        return "no realization"
+    return "not convex" if isinstance(answers["convex"], Refutation) else "convex"
+
+
+def write(root: Path, name: str, pattern: Pattern, answers: dict[str, Finding]) -> None:
+    """Write the certificate of one pattern, and its proofs."""
+    record: dict[str, Any] = {
+        "format": FORMAT,
+        "pattern": name,
+        "boundary": pattern.boundary,
+        "instances": len(orbit(pattern.tetrahedra)),
+        "tetrahedra": pattern.tetrahedra,
+    }
+    for question, finding in answers.items():
+        record[question] = write_answer(root, f"proofs/{name}.{question}", finding)
+    lines = ",\n ".join(f"{json.dumps(key)}: {json.dumps(value)}" for key, value in record.items())
+    path = root / "certificates" / f"{name}.json"
+    path.write_text(f"{{{lines}}}\n", encoding="utf-8")
+
+
+def write_answer(root: Path, stem: str, finding: Finding) -> dict[str, Any]:
+    """Return the JSON object that answers a question, having written its proofs."""
+    if finding is None:
+        return {"answer": "open"}
+    if not isinstance(finding, Refutation):
+        return {"answer": "yes", "points": finding}
+    proof = lrat(finding.steps).encode("ascii")
+    (root / f"{stem}.lrat").write_bytes(proof)
+    (root / f"{stem}.drat").write_bytes(drat(finding.steps).encode("ascii"))
+    answer = {"answer": "no", "proof": f"{stem}.lrat", "sha256": sha256(proof).hexdigest()}
+    if not finding.polynomials:
+        return answer
+    return answer | {"final_polynomials": list(map(polynomial_record, finding.polynomials))}
+
+
+def polynomial_record(polynomial: FinalPolynomial) -> dict[str, Any]:
+    """Return a final polynomial as the certificate format has it."""
+    return {
+        "signs": {label(quadruple): sign for quadruple, sign in polynomial.signs.items()},
+        "inequalities": polynomial.inequalities,
+    }

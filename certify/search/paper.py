@@ -1,0 +1,97 @@
+"""The names of the paper's big table, and which of our patterns gets which.
+
+A name carries three facts: the number of tetrahedra, the letter of the boundary, and a status. The
+order inside a cell (same number, letter and status) is ours: lexicographic.
+"""
+
+from collections import Counter, defaultdict
+from collections.abc import Mapping, Sequence
+
+from certify.kernel.check import pattern_names
+
+BOLD = frozenset(("15_A", "15_B", "15_J"))
+"""Printed bold: no realization."""
+
+UNDERLINED = frozenset(
+    f"{size}_{letter}"
+    for size, letters in {12: "UY", 13: "TW", 14: "ANOPR", 15: "FGHI"}.items()
+    for letter in letters
+)
+"""Printed underlined: no realization in convex position."""
+
+LETTERS: dict[str, str] = dict(
+    zip(
+        pattern_names(),
+        "a"
+        "debca"
+        "bdgbc"
+        "dggddbf"
+        "dedgdfbdgdfff"
+        "geedgdgdggfbgffgggdf"
+        "gfdgcgggffggeedegedggggfggdbgggdgfg"
+        "dggggeeedgeeggdfggggddgdggdgdc"
+        "fggdfdedeedgdggddddccdfggggg"
+        "cddeeedfdddccdcdggg"
+        "gfdfccccdgg",
+        strict=True,
+    )
+)
+"""Name -> printed boundary letter."""
+
+
+def size(name: str) -> int:
+    """Return the number of tetrahedra that a name carries."""
+    return int(name.partition("_")[0])
+
+
+def printed_status(name: str) -> str:
+    """Return what the print of a name says: "no realization", "not convex" or "convex"."""
+    if name in BOLD:
+        return "no realization"
+    return "not convex" if name in UNDERLINED else "convex"
+
+
+def assign_names(facts: Sequence[tuple[int, str, str]]) -> list[str]:
+    """Return a name for each pattern, given its number of tetrahedra, letter and status.
+
+    The patterns come in the order they shall have inside a cell. Names keep their status; the
+    letters are the printed ones, amended where those cannot be true.
+    """
+    letters = amended_letters(Counter(facts))
+    free: defaultdict[tuple[int, str, str], list[str]] = defaultdict(list)
+    for name in pattern_names():
+        free[size(name), letters[name], printed_status(name)].append(name)
+    return [free[fact].pop(0) for fact in facts]
+
+
+def amended_letters(found: Mapping[tuple[int, str, str], int]) -> dict[str, str]:
+    """Return the printed letters after the fewest exchanges that make all counts those found.
+
+    A name in bold or underlined whose letter is printed more often than found for its size and
+    status exchanges letters with the nearest name of the same size for which it is the other way
+    round.
+    """
+    letters = dict(LETTERS)
+
+    def cell(name: str, letter: str) -> tuple[int, str, str]:
+        return size(name), letter, printed_status(name)
+
+    def surplus(name: str, letter: str) -> int:
+        key = cell(name, letter)
+        return sum(cell(*item) == key for item in letters.items()) - found.get(key, 0)
+
+    names = pattern_names()
+    for i, name in enumerate(names):
+        if printed_status(name) == "convex" or surplus(name, letters[name]) <= 0:
+            continue
+        candidates = [
+            other
+            for other in names
+            if size(other) == size(name)
+            and surplus(other, letters[other]) > 0
+            and surplus(name, letters[other]) < 0
+        ]
+        if candidates:
+            other = min(candidates, key=lambda other: abs(names.index(other) - i))
+            letters[name], letters[other] = letters[other], letters[name]
+    return letters
