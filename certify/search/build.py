@@ -10,7 +10,7 @@ import numpy as np
 from joblib import Parallel, delayed
 
 from certify.kernel.certificate import FORMAT, QUESTIONS
-from certify.kernel.orientations import convex_formula, realization_formula
+from certify.kernel.check import FORMULAS
 from certify.kernel.refutation import FinalPolynomial
 from certify.kernel.triangulation import label, orbit, orientation
 from certify.search.enumeration import Pattern, patterns
@@ -60,26 +60,19 @@ def build(root: Path, jobs: int, report: Callable[[str], None]) -> None:
 
 
 def investigate(pattern: Pattern, seed: int) -> dict[str, Finding]:
-    """Return what was found for each question: refutations first, then one point set for all."""
+    """Return what was found for each question: refutations first, then one point set."""
     signs = orientation(pattern.tetrahedra)
-    rng = np.random.default_rng(seed)
     answers: dict[str, Finding] = dict.fromkeys(QUESTIONS)
-    for question, formula in (("realizable", realization_formula), ("convex", convex_formula)):
+    for question, formula in FORMULAS.items():
         if refutation := refute_with_polynomials(formula(signs)):
             answers[question] = Refutation(*refutation)
-    if answers["realizable"]:
-        return answers
-    points = None
-    if not answers["convex"]:
-        points = place(signs, convex=True, valid=True, rng=rng)
+    possible = [question for question in QUESTIONS if answers[question] is None]
+    rng = np.random.default_rng(seed)
+    while possible:
+        points = place(signs, convex="convex" in possible, valid="valid" in possible, rng=rng)
         if points is not None:
-            answers["valid"] = points.tolist()
-        else:
-            points = place(signs, convex=True, valid=False, rng=rng)
-        answers["convex"] = None if points is None else points.tolist()
-    if points is None:
-        points = place(signs, convex=False, valid=False, rng=rng)
-    answers["realizable"] = None if points is None else points.tolist()
+            return answers | dict.fromkeys(possible, points.tolist())
+        possible.pop()
     return answers
 
 
