@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from hashlib import sha256
 from pathlib import Path
+from string import ascii_uppercase
 from typing import Any, TypeAlias
 
 from certify.kernel.chirotope import QUADRUPLES, Point
@@ -19,12 +20,22 @@ from certify.kernel.refutation import FinalPolynomial
 
 FORMAT = "certify-pattern/1"
 QUESTIONS = ("realizable", "convex", "valid")
+
+PATTERN_COUNTS = {5: 1, 6: 5, 7: 5, 8: 7, 9: 13, 10: 20, 11: 35, 12: 30, 13: 28, 14: 19, 15: 11}
+"""Number of tetrahedra -> number of patterns in the paper's Table 1."""
+
+_SUFFIXES = (*ascii_uppercase, *("A" + letter for letter in ascii_uppercase))
+
+PATTERN_NAMES: tuple[str, ...] = tuple(
+    f"{size}_{suffix}" for size, count in PATTERN_COUNTS.items() for suffix in _SUFFIXES[:count]
+)
+"""The paper's 174 names 5_A .. 15_K, in order; after 11_Z comes 11_AA."""
+
 MAX_CERTIFICATE_BYTES = 1 << 20
 MAX_PROOF_BYTES = 1 << 24
 MAX_DIGITS = 40
 """Longest numerator or denominator: long enough for any honest point, too short to stall."""
 
-_NAME = re.compile(r"([5-9]|1[0-5])_A?[A-Z]")
 _QUADRUPLE = {"".join(map(str, quadruple)): quadruple for quadruple in QUADRUPLES}
 _FRACTION = re.compile(r"-?(0|[1-9][0-9]*)/[1-9][0-9]*")
 
@@ -75,7 +86,7 @@ def read_certificate(path: Path) -> Certificate:
     if record["format"] != FORMAT:
         raise Malformed(f'format is not "{FORMAT}"')
     pattern = _text(record["pattern"], "pattern")
-    if not _NAME.fullmatch(pattern) or path.name != f"{pattern}.json":
+    if pattern not in PATTERN_NAMES or path.name != f"{pattern}.json":
         raise Malformed("pattern is not a pattern's name, or not that of the file")
     boundary = _text(record["boundary"], "boundary")
     if boundary not in BOUNDARY_TYPES:
@@ -95,18 +106,18 @@ def read_certificate(path: Path) -> Certificate:
     )
 
 
-def read_proof(root: Path, answer: No) -> str:
-    """Return the text of the proof that an answer names, or raise Malformed."""
-    path = root / answer.proof
+def read_proof(root: Path, name: str, digest: str | None = None) -> str:
+    """Return the text of a proof, given by its path below ``root``, or raise Malformed."""
+    path = root / name
     if path.resolve().parent != (root / "proofs").resolve():
-        raise Malformed(f"{answer.proof} is not in the folder of proofs")
+        raise Malformed(f"{name} is not in the folder of proofs")
     content = read_file(path, MAX_PROOF_BYTES)
-    if sha256(content).hexdigest() != answer.digest:
-        raise Malformed(f"{answer.proof} has not the stated sha256")
+    if digest is not None and sha256(content).hexdigest() != digest:
+        raise Malformed(f"{name} has not the stated sha256")
     try:
         return content.decode("ascii")
     except UnicodeDecodeError:
-        raise Malformed(f"{answer.proof} is not ASCII text") from None
+        raise Malformed(f"{name} is not ASCII text") from None
 
 
 def read_file(path: Path, limit: int) -> bytes:

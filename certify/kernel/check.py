@@ -1,7 +1,6 @@
-"""One certificate -> a verdict; all certificates -> the theorems they prove together."""
+"""One certificate -> a verdict; the certificates of all patterns -> is their list complete?"""
 
-from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
@@ -16,8 +15,9 @@ from certify.kernel.certificate import (
     read_proof,
 )
 from certify.kernel.chirotope import Chirotope, Point, chirotope
+from certify.kernel.completeness import listed, triangulation_formula
 from certify.kernel.embedding import NotRealized, require_convex_position, require_realization
-from certify.kernel.hexahedron import Simplex, boundary_letter
+from certify.kernel.hexahedron import BOUNDARY_TYPES, Simplex, boundary_letter
 from certify.kernel.jacobian import require_positive_jacobian
 from certify.kernel.orientations import Clause, convex_formula, realization_formula
 from certify.kernel.refutation import NotRefuted, excluded_signs, replay
@@ -30,28 +30,20 @@ from certify.kernel.triangulation import (
 )
 from certify.kernel.validity import valid_formula
 
-PATTERN_COUNTS = {5: 1, 6: 5, 7: 5, 8: 7, 9: 13, 10: 20, 11: 35, 12: 30, 13: 28, 14: 19, 15: 11}
-"""Number of tetrahedra -> number of patterns that the paper's Table 1 claims."""
-
-
-def pattern_names() -> tuple[str, ...]:
-    """Return the paper's 174 names 5_A .. 15_K, in order; after 11_Z comes 11_AA."""
-    alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
-    suffixes = [*alphabet, *("A" + letter for letter in alphabet)]
-    return tuple(f"{size}_{s}" for size, count in PATTERN_COUNTS.items() for s in suffixes[:count])
-
 
 @dataclass(frozen=True)
 class Verdict:
     """What one certificate proves; ``fault`` says why it was rejected, and is None if it was not.
 
-    answers: question -> "yes", "no" or "open"; representative: the least instance of the class.
+    boundary: the letter of its type; instances: its class, each a sorted tuple of tetrahedra;
+    answers: question -> "yes", "no" or "open".
     """
 
     pattern: str
-    answers: dict[str, str] = field(default_factory=dict)
-    representative: tuple[Simplex, ...] = ()
     fault: str | None = None
+    boundary: str = ""
+    instances: frozenset[tuple[Simplex, ...]] = frozenset()
+    answers: dict[str, str] = field(default_factory=dict)
 
     @property
     def size(self) -> int:
@@ -60,12 +52,11 @@ class Verdict:
 
 
 @dataclass(frozen=True)
-class Theorem:
-    """A statement, and whether the certificates accepted in this run prove it."""
+class Completeness:
+    """Whether the accepted patterns are all that have a boundary of this type; if not, why."""
 
-    id: str
-    statement: str
-    ok: bool
+    boundary: str
+    fault: str | None = None
 
 
 FORMULAS = {
@@ -113,7 +104,7 @@ def check_certificate(certificate: Certificate, root: Path) -> Verdict:
             answers[question] = check_answer(question, answer, signs, root)
         except (NotRealized, NotRefuted) as error:
             raise Rejected(f"{question}: {error}") from None
-    return Verdict(certificate.pattern, answers, min(instances))
+    return Verdict(certificate.pattern, None, letter, instances, answers)
 
 
 def check_answer(question: str, answer: Answer, signs: dict[Simplex, int], root: Path) -> str:
@@ -126,7 +117,9 @@ def check_answer(question: str, answer: Answer, signs: dict[Simplex, int], root:
             require_positive_jacobian(answer.points)
         return "yes"
     if isinstance(answer, No):
-        replay(refuted_formula(question, answer, signs), read_proof(root, answer))
+        replay(
+            refuted_formula(question, answer, signs), read_proof(root, answer.proof, answer.digest)
+        )
         return "no"
     return "open"
 
@@ -136,44 +129,37 @@ def refuted_formula(question: str, answer: No, signs: dict[Simplex, int]) -> tup
     return (*FORMULAS[question](signs), *map(excluded_signs, answer.final_polynomials))
 
 
+def check_completeness(root: Path, letter: str, verdicts: Iterable[Verdict]) -> Completeness:
+    """Replay the proof that no triangulation with this boundary is missing from the verdicts."""
+    name = completeness_proof(letter)
+    try:
+        replay(completeness_formula(letter, verdicts), read_proof(root, name))
+    except (Malformed, NotRefuted) as error:
+        return Completeness(letter, f"{name}: {error}")
+    return Completeness(letter)
+
+
+def completeness_proof(letter: str) -> str:
+    """Return the path of the proof below the root."""
+    return f"proofs/complete.{letter}.lrat"
+
+
+def completeness_formula(letter: str, verdicts: Iterable[Verdict]) -> tuple[Clause, ...]:
+    """Return the clauses of a triangulation, with the type's boundary, that no verdict is about.
+
+    The accepted instances with exactly this boundary are listed in lexicographic order.
+    """
+    diagonals = BOUNDARY_TYPES[letter]
+    instances = sorted(
+        instance
+        for verdict in verdicts
+        if verdict.boundary == letter
+        for instance in verdict.instances
+        if boundary_diagonals(instance) == diagonals
+    )
+    return (*triangulation_formula(diagonals), *map(listed, instances))
+
+
 @lru_cache(maxsize=4)
 def _chirotope(points: tuple[Point, ...]) -> Chirotope:
     return chirotope(points)
-
-
-def count(verdicts: Iterable[Verdict], question: str, answer: str) -> int:
-    """Return how many of the verdicts answer the question so."""
-    return sum(verdict.answers.get(question) == answer for verdict in verdicts)
-
-
-def theorems(verdicts: Sequence[Verdict]) -> list[Theorem]:
-    """Return what the paper claims of the patterns, each with whether these verdicts prove it."""
-    accepted = [verdict for verdict in verdicts if verdict.fault is None]
-    sizes = Counter(verdict.size for verdict in accepted)
-    classes = len({verdict.representative for verdict in accepted})
-    complete = sizes == PATTERN_COUNTS and classes == len(accepted)
-
-    def exactly(question: str, yes: int) -> bool:
-        no = len(pattern_names()) - yes
-        counts = (count(accepted, question, "yes"), count(accepted, question, "no"))
-        return complete and counts == (yes, no)
-
-    return [
-        Theorem(
-            "patterns",
-            "There are 174 pairwise inequivalent triangulations of the hexahedron, with 5 to 15 "
-            "tetrahedra, as many of each size as in the paper's Table 1.",
-            complete,
-        ),
-        Theorem(
-            "realizable",
-            "Exactly 171 of them have a realization; the other 3 have none, in any position.",
-            exactly("realizable", 171),
-        ),
-        Theorem(
-            "convex",
-            "Exactly 158 of them have a realization in convex position; the other 16 have none, "
-            "not even with vertices on the boundary of the hull.",
-            exactly("convex", 158),
-        ),
-    ]

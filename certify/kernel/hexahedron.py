@@ -93,12 +93,18 @@ BOUNDARY_TYPES: dict[str, frozenset[Simplex]] = {
 only bijection between types and letters for which every cell of that table has the right count."""
 
 
+_LETTERS = {
+    frozenset(image(symmetry, diagonal) for diagonal in representative): letter
+    for letter, representative in BOUNDARY_TYPES.items()
+    for symmetry in SYMMETRIES
+}
+
+
 def boundary_letter(diagonals: frozenset[Simplex]) -> str:
-    """Return the type a..g of a triangulated boundary: whose representative is an image of it?"""
-    for letter, representative in BOUNDARY_TYPES.items():
-        if any(
-            representative == {image(symmetry, diagonal) for diagonal in diagonals}
-            for symmetry in SYMMETRIES
-        ):
-            return letter
-    raise ValueError("not a choice of one diagonal in each facet")
+    """Return the type a..g of one of the 64 triangulated boundaries.
+
+    A symmetry takes the type's representative to it. There is a letter for each of the 64, and
+    only one, because the orbits of the seven representatives have 64 members together, none twice
+    (a KeyError would tell of a missing one; theorems.py counts).
+    """
+    return _LETTERS[diagonals]

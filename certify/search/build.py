@@ -9,15 +9,21 @@ from typing import Any, NamedTuple
 import numpy as np
 from joblib import Parallel, delayed
 
-from certify.kernel.certificate import FORMAT, QUESTIONS
-from certify.kernel.check import FORMULAS
+from certify.kernel.certificate import FORMAT, PATTERN_NAMES, QUESTIONS
+from certify.kernel.check import (
+    FORMULAS,
+    check_pattern,
+    completeness_formula,
+    completeness_proof,
+)
+from certify.kernel.hexahedron import BOUNDARY_TYPES
 from certify.kernel.refutation import FinalPolynomial
 from certify.kernel.triangulation import label, orbit, orientation
 from certify.search.enumeration import Pattern, patterns
 from certify.search.final_polynomials import refute_with_polynomials
 from certify.search.paper import assign_names
 from certify.search.placement import place
-from certify.search.refutations import Step, drat, lrat
+from certify.search.refutations import Step, drat, lrat, refute
 
 
 class Refutation(NamedTuple):
@@ -56,6 +62,12 @@ def build(root: Path, jobs: int, report: Callable[[str], None]) -> None:
             stale.unlink()
     for name, pattern, answers in zip(assign_names(facts), found, findings, strict=True):
         write(root, name, pattern, answers)
+    report("proving that no pattern is missing")
+    verdicts = [check_pattern(root, name) for name in PATTERN_NAMES]
+    for letter in BOUNDARY_TYPES:
+        steps = refute(completeness_formula(letter, verdicts))
+        if steps:
+            write_proof(root / completeness_proof(letter), steps)
     report(f"{len(found)} certificates written")
 
 
@@ -105,13 +117,19 @@ def write_answer(root: Path, stem: str, finding: Finding) -> dict[str, Any]:
         return {"answer": "open"}
     if not isinstance(finding, Refutation):
         return {"answer": "yes", "points": finding}
-    proof = lrat(finding.steps).encode("ascii")
-    (root / f"{stem}.lrat").write_bytes(proof)
-    (root / f"{stem}.drat").write_bytes(drat(finding.steps).encode("ascii"))
-    answer = {"answer": "no", "proof": f"{stem}.lrat", "sha256": sha256(proof).hexdigest()}
+    digest = write_proof(root / f"{stem}.lrat", finding.steps)
+    answer = {"answer": "no", "proof": f"{stem}.lrat", "sha256": digest}
     if not finding.polynomials:
         return answer
     return answer | {"final_polynomials": list(map(polynomial_record, finding.polynomials))}
+
+
+def write_proof(path: Path, steps: list[Step]) -> str:
+    """Write a proof as LRAT, and beside it as DRAT; return the digest of the former."""
+    proof = lrat(steps).encode("ascii")
+    path.write_bytes(proof)
+    path.with_suffix(".drat").write_bytes(drat(steps).encode("ascii"))
+    return sha256(proof).hexdigest()
 
 
 def polynomial_record(polynomial: FinalPolynomial) -> dict[str, Any]:

@@ -7,7 +7,7 @@ order inside a cell (same number, letter and status) is ours: lexicographic.
 from collections import Counter, defaultdict
 from collections.abc import Mapping, Sequence
 
-from certify.kernel.check import pattern_names
+from certify.kernel.certificate import PATTERN_NAMES
 
 BOLD = frozenset(("15_A", "15_B", "15_J"))
 """Printed bold: no realization."""
@@ -21,7 +21,7 @@ UNDERLINED = frozenset(
 
 LETTERS: dict[str, str] = dict(
     zip(
-        pattern_names(),
+        PATTERN_NAMES,
         "a"
         "debca"
         "bdgbc"
@@ -59,7 +59,7 @@ def assign_names(facts: Sequence[tuple[int, str, str]]) -> list[str]:
     """
     letters = amended_letters(Counter(facts))
     free: defaultdict[tuple[int, str, str], list[str]] = defaultdict(list)
-    for name in pattern_names():
+    for name in PATTERN_NAMES:
         free[size(name), letters[name], printed_status(name)].append(name)
     return [free[fact].pop(0) for fact in facts]
 
@@ -80,7 +80,7 @@ def amended_letters(found: Mapping[tuple[int, str, str], int]) -> dict[str, str]
         key = cell(name, letter)
         return sum(cell(*item) == key for item in letters.items()) - found.get(key, 0)
 
-    names = pattern_names()
+    names = PATTERN_NAMES
     for i, name in enumerate(names):
         if printed_status(name) == "convex" or surplus(name, letters[name]) <= 0:
             continue
