@@ -21,7 +21,7 @@ from certify.kernel.refutation import FinalPolynomial
 from certify.kernel.triangulation import label, orbit, orientation
 from certify.search.enumeration import Pattern, patterns
 from certify.search.final_polynomials import refute_with_polynomials
-from certify.search.paper import assign_names
+from certify.search.naming import assign_names
 from certify.search.placement import place
 from certify.search.refutations import Step, drat, lrat, refute
 
@@ -89,7 +89,7 @@ def investigate(pattern: Pattern, seed: int) -> dict[str, Finding]:
 
 
 def status(answers: dict[str, Finding]) -> str:
-    """Return the status that the paper's table would print (see paper.py)."""
+    """Return the status that the paper's table would print (see naming.py)."""
     if isinstance(answers["realizable"], Refutation):
         return "no realization"
     return "not convex" if isinstance(answers["convex"], Refutation) else "convex"

@@ -1,4 +1,4 @@
-"""The names of the paper's big table, and which of our patterns gets which.
+"""Which of our patterns gets which name of the paper's big table.
 
 A name carries three facts: the number of tetrahedra, the letter of the boundary, and a status. The
 order inside a cell (same number, letter and status) is ours: lexicographic.
@@ -8,47 +8,7 @@ from collections import Counter, defaultdict
 from collections.abc import Mapping, Sequence
 
 from certify.kernel.certificate import PATTERN_NAMES
-
-BOLD = frozenset(("15_A", "15_B", "15_J"))
-"""Printed bold: no realization."""
-
-UNDERLINED = frozenset(
-    f"{size}_{letter}"
-    for size, letters in {12: "UY", 13: "TW", 14: "ANOPR", 15: "FGHI"}.items()
-    for letter in letters
-)
-"""Printed underlined: no realization in convex position."""
-
-LETTERS: dict[str, str] = dict(
-    zip(
-        PATTERN_NAMES,
-        "a"
-        "debca"
-        "bdgbc"
-        "dggddbf"
-        "dedgdfbdgdfff"
-        "geedgdgdggfbgffgggdf"
-        "gfdgcgggffggeedegedggggfggdbgggdgfg"
-        "dggggeeedgeeggdfggggddgdggdgdc"
-        "fggdfdedeedgdggddddccdfggggg"
-        "cddeeedfdddccdcdggg"
-        "gfdfccccdgg",
-        strict=True,
-    )
-)
-"""Name -> printed boundary letter."""
-
-
-def size(name: str) -> int:
-    """Return the number of tetrahedra that a name carries."""
-    return int(name.partition("_")[0])
-
-
-def printed_status(name: str) -> str:
-    """Return what the print of a name says: "no realization", "not convex" or "convex"."""
-    if name in BOLD:
-        return "no realization"
-    return "not convex" if name in UNDERLINED else "convex"
+from certify.paper import LETTERS, printed_status, size
 
 
 def assign_names(facts: Sequence[tuple[int, str, str]]) -> list[str]:
