@@ -35,9 +35,14 @@ def determinant(rows: Sequence[Sequence[int]]) -> int:
     return int(DomainMatrix([list(map(ZZ, row)) for row in rows], (size, size), ZZ).det())
 
 
+def common_denominator(points: Sequence[Point]) -> int:
+    """Return the least common denominator of all coordinates."""
+    return lcm(*(coordinate.denominator for point in points for coordinate in point))
+
+
 def integral(points: Sequence[Point]) -> list[tuple[int, ...]]:
-    """Return the points times their least common denominator: same signs, integer coordinates."""
-    scale = lcm(*(coordinate.denominator for point in points for coordinate in point))
+    """Return the points times their common denominator: same signs, integer coordinates."""
+    scale = common_denominator(points)
     return [tuple(int(coordinate * scale) for coordinate in point) for point in points]
 
 

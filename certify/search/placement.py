@@ -43,20 +43,19 @@ def place(
     valid: bool,
     rng: np.random.Generator,
     starts: int = 400,
-    enough: int = 4,
 ) -> Array | None:
     """Return eight integer points, one a row, that realize the pattern as asked, or None.
 
-    Of the witnesses that ``enough`` successful starts lead to: if valid, the one with the largest
+    Of the witnesses that a few successful starts lead to: if valid, the one with the largest
     scaled Jacobian on the fine grid, else the one on the coarsest grid.
     """
+    choose, enough = (best_shaped, 20) if valid else (coarsest, 4)
     sieve = Sieve(orientation, convex, valid)
     witnesses: list[Array] = []
     for start in starting_points(orientation, convex, valid, rng, starts):
         improved = improve(start, orientation, convex, valid)
         exact = [points for points in (improved, start) if len(sieve(np.rint(2000 * points)[None]))]
         if exact:
-            choose = best_shaped if valid else coarsest
             witnesses.extend(choose(exact[0], sieve, rng))
         if len(witnesses) == enough:
             break
