@@ -17,6 +17,9 @@ UNDERLINED = frozenset(
 )
 """Printed underlined: no realization in convex position."""
 
+NEEDS_FINAL_POLYNOMIAL = "15_G"
+"""The one name underlined for which the text says that a uniform sign vector survives."""
+
 LETTERS: dict[str, str] = dict(
     zip(
         PATTERN_NAMES,
@@ -43,7 +46,9 @@ def size(name: str) -> int:
 
 
 def printed_status(name: str) -> str:
-    """Return what the print of a name says: "no realization", "not convex" or "convex"."""
+    """Return what the paper says of a name: one of the four values below."""
     if name in BOLD:
         return "no realization"
+    if name == NEEDS_FINAL_POLYNOMIAL:
+        return "not convex, by a final polynomial"
     return "not convex" if name in UNDERLINED else "convex"

@@ -16,14 +16,16 @@ from certify.kernel.check import (
     completeness_formula,
     completeness_proof,
 )
+from certify.kernel.chirotope import QUADRUPLES
 from certify.kernel.hexahedron import BOUNDARY_TYPES
+from certify.kernel.orientations import convex_formula, has_sign
 from certify.kernel.refutation import FinalPolynomial
 from certify.kernel.triangulation import label, orbit, orientation
 from certify.search.enumeration import Pattern, patterns
 from certify.search.final_polynomials import refute_with_polynomials
 from certify.search.naming import assign_names
 from certify.search.placement import place
-from certify.search.refutations import Step, drat, lrat, refute
+from certify.search.refutations import Step, drat, lrat, model, refute
 
 
 class Refutation(NamedTuple):
@@ -53,7 +55,7 @@ def build(root: Path, jobs: int, report: Callable[[str], None]) -> None:
         findings.append(answers)
         report(f"{number} of {len(found)} patterns investigated")
     facts = [
-        (len(pattern.tetrahedra), pattern.boundary, status(answers))
+        (len(pattern.tetrahedra), pattern.boundary, status(pattern, answers))
         for pattern, answers in zip(found, findings, strict=True)
     ]
     for folder in ("certificates", "proofs"):
@@ -88,11 +90,19 @@ def investigate(pattern: Pattern, seed: int) -> dict[str, Finding]:
     return answers
 
 
-def status(answers: dict[str, Finding]) -> str:
-    """Return the status that the paper's table would print (see naming.py)."""
+def status(pattern: Pattern, answers: dict[str, Finding]) -> str:
+    """Return what the paper would say of the pattern (see printed_status in paper.py).
+
+    It looked for uniform sign vectors only, those without zeros.
+    """
     if isinstance(answers["realizable"], Refutation):
         return "no realization"
-    return "not convex" if isinstance(answers["convex"], Refutation) else "convex"
+    if not isinstance(answers["convex"], Refutation):
+        return "convex"
+    uniform = [(has_sign(quadruple, 1), has_sign(quadruple, -1)) for quadruple in QUADRUPLES]
+    if model([*convex_formula(orientation(pattern.tetrahedra)), *uniform]):
+        return "not convex, by a final polynomial"
+    return "not convex"
 
 
 def write(root: Path, name: str, pattern: Pattern, answers: dict[str, Finding]) -> None:

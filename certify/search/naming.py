@@ -1,7 +1,7 @@
 """Which of our patterns gets which name of the paper's big table.
 
-A name carries three facts: the number of tetrahedra, the letter of the boundary, and a status. The
-order inside a cell (same number, letter and status) is ours: lexicographic.
+A name carries three facts: the number of tetrahedra, the letter of the boundary, and a status (of
+15_G the text says more than the table). The order inside a cell is ours: lexicographic.
 """
 
 from collections import Counter, defaultdict

@@ -49,7 +49,7 @@ def place(
     Of the witnesses that a few successful starts lead to: if valid, the one with the largest
     scaled Jacobian on the fine grid, else the one on the coarsest grid.
     """
-    choose, enough = (best_shaped, 20) if valid else (coarsest, 4)
+    choose, enough = (best_shaped, 10) if valid else (coarsest, 4)
     sieve = Sieve(orientation, convex, valid)
     witnesses: list[Array] = []
     for start in starting_points(orientation, convex, valid, rng, starts):

@@ -15,9 +15,9 @@ does find all, by Wagner's theorem (1936) on edge flips.
 vertices; its docstring has the proof.
 
 :func:`spheres` runs both and compares. With nine vertices there are 1297 manifolds. The moves
-reach 1296 of them, which are spheres. They never reach the last, the twisted product of S^2 and
-S^1; it is not orientable, hence no sphere. So the list is proved to be complete as far as this
-code is right, and the numbers of the literature are a check and no input: 1, 2, 5, 39 and 1296
+reach 1296 of them, which are spheres. They do not reach the last (known as the twisted product of
+S^2 and S^1), which is not orientable, hence no sphere. So the list is proved to be complete as far
+as this code is right. The numbers of the literature are no input but a check: 1, 2, 5, 39 and 1296
 spheres with five to nine vertices (Altshuler and Steinberg 1976; Lutz 2008, who also has the 1297).
 
 Isomorphic complexes are recognized by :func:`canonical`. Its value is the complex itself with
@@ -32,7 +32,7 @@ from typing import NamedTuple, TypeAlias
 import networkx as nx
 import pynauty
 
-from certify.kernel.hexahedron import BOUNDARIES, FACETS, Simplex, boundary_triangles, simplex
+from certify.kernel.hexahedron import FACETS, Simplex, simplex
 
 Complex: TypeAlias = tuple[Simplex, ...]
 """The facets (simplices of the highest dimension) of a simplicial complex, in increasing order."""
@@ -41,7 +41,7 @@ Report: TypeAlias = Callable[[str], None]
 
 
 class Undecided(RuntimeError):
-    """The two ways to list the spheres do not fit together."""
+    """The two ways to list the spheres do not fit together; the message says how."""
 
 
 def vertices_of(facets: Iterable[Simplex]) -> Simplex:
@@ -74,7 +74,9 @@ def canonical(facets: Iterable[Simplex]) -> Complex:
 
 
 def bistellar_moves(facets: Complex, most: int) -> Iterator[Complex]:
-    """Yield the results of all bistellar moves on a manifold 1, 2, ... with at most that many.
+    """Yield what single bistellar moves make of a manifold with the vertices 1, 2, ..., n.
+
+    None of the results has more vertices than ``most``.
 
     A move takes a face A whose link is the boundary of a simplex B that is no face itself: the
     simplices around A, A joined with the boundary of B, give way to the boundary of A joined
@@ -86,14 +88,13 @@ def bistellar_moves(facets: Complex, most: int) -> Iterator[Complex]:
             for face in combinations(facet, size):
                 around[face].append(facet)
     dimension = len(facets[0]) - 1
-    vertices = vertices_of(facets)
+    fresh = len(vertices_of(facets)) + 1
     for old, star in around.items():
-        if len(old) == dimension + 1:
-            new: Simplex = (len(vertices) + 1,)
-        else:
-            new = tuple(v for v in vertices_of(star) if v not in old)
+        new = tuple(v for v in vertices_of(star) if v not in old)
+        if not new and fresh <= most:
+            new = (fresh,)
         # In a manifold a link with as many vertices as the boundary of a simplex is that boundary.
-        if len(old) + len(new) == dimension + 2 and new not in around and new[0] <= most:
+        if len(old) + len(new) == dimension + 2 and new not in around:
             kept = [facet for facet in facets if facet not in star]
             put = [simplex((*face, *new)) for face in combinations(old, len(old) - 1)]
             yield tuple(kept + put)
@@ -115,18 +116,23 @@ def moved(dimension: int, most: int) -> set[Complex]:
 
 
 def manifolds(vertices: int, report: Report | None = None) -> set[Complex]:
-    """Return all closed connected 3-manifolds with at most ten vertices, up to isomorphism.
+    """Return all closed connected 3-manifolds with five to ten vertices, up to isomorphism.
+
+    Nine vertices take a quarter of a minute; ten have not been tried.
 
     None is missed: let v be a vertex of greatest degree k in a manifold M. Its link is a 2-sphere
     with k vertices. Call v 1 and the others 2, ..., k + 1, in such a way that the link is one of
     those that :func:`moved` lists. Then M is one of the completions of the star of v.
     """
+    if not 5 <= vertices <= 10:
+        raise ValueError("between five and ten vertices")
     found: set[Complex] = set()
     for link in sorted(moved(2, vertices - 1), key=lambda link: (len(link), link)):
-        link_of_1 = relabelled(link, {v: v + 1 for v in vertices_of(link)})
-        found.update(map(canonical, _Search(vertices, len(vertices_of(link))).all(link_of_1)))
+        degree = len(vertices_of(link))
+        link_of_1 = relabelled(link, {v: v + 1 for v in range(1, degree + 1)})
+        found.update(map(canonical, _Search(vertices, degree).manifolds(link_of_1)))
         if report:
-            report(f"vertex of degree {len(vertices_of(link))}: {len(found)} manifolds so far")
+            report(f"vertex of degree {degree}: {len(found)} manifolds so far")
     return found
 
 
@@ -162,23 +168,23 @@ class _Search:
     """
 
     def __init__(self, vertices: int, degree: int) -> None:
-        names = range(1, vertices + 1)
         self.degree = degree
-        self.vertices = [(v,) for v in names]
-        self.tetrahedra = list(combinations(names, 4))
-        self.triangles = list(combinations(names, 3))
-        faces = [face for size in (1, 2, 3) for face in combinations(names, size)]
-        self.around = {face: _bits_containing(face, self.tetrahedra) for face in faces}
-        self.triangles_at = {face: _bits_containing(face, self.triangles) for face in faces}
+        self.vertices, self.edges, self.triangles, self.tetrahedra = (
+            [simplex(face) for face in combinations(range(1, vertices + 1), size)]
+            for size in (1, 2, 3, 4)
+        )
+        faces = self.vertices + self.edges + self.triangles
+        self.around = {face: _containing(face, self.tetrahedra) for face in faces}
+        self.triangles_at = {face: _containing(face, self.triangles) for face in faces}
+        self.around_edges_at = {
+            v: [self.around[edge] for edge in self.edges if v[0] in edge] for v in self.vertices
+        }
         self.boundary = [
             sum(self.triangles_at[triangle] for triangle in combinations(tetrahedron, 3))
             for tetrahedron in self.tetrahedra
         ]
-        self.edges_at = {
-            (v,): [edge for edge in combinations(names, 2) if v in edge] for v in names
-        }
 
-    def all(self, link_of_1: Complex) -> Iterator[Complex]:
+    def manifolds(self, link_of_1: Complex) -> Iterator[Complex]:
         """Yield every manifold in which vertex 1 has this link."""
         start: _Partial | None = _Partial(0, (1 << len(self.tetrahedra)) - 1, 0)
         for triangle in link_of_1:
@@ -224,17 +230,16 @@ class _Search:
         around = chosen & self.around[face]
         if len(face) == 1:
             return around.bit_count() == 2 * self.degree_of(face, chosen) - 4
-        if len(face) == 2:
-            link = [set(self.tetrahedra[k]).difference(face) for k in _bits(around)]
-            return around.bit_count() < 6 or _is_connected(link)
+        if len(face) == 2 and around.bit_count() >= 6:  # two cycles have six edges
+            return _is_connected([set(self.tetrahedra[k]).difference(face) for k in _bits(around)])
         return True
 
     def degree_of(self, vertex: Simplex, chosen: int) -> int:
         """Return the number of edges at a vertex."""
-        return sum(bool(chosen & self.around[edge]) for edge in self.edges_at[vertex])
+        return sum([bool(chosen & around) for around in self.around_edges_at[vertex]])
 
 
-def _bits_containing(face: Simplex, simplices: list[Simplex]) -> int:
+def _containing(face: Simplex, simplices: list[Simplex]) -> int:
     """Return the set of the simplices that contain a face, the k-th of them as the k-th bit."""
     return sum(1 << k for k, other in enumerate(simplices) if set(face) <= set(other))
 
@@ -252,7 +257,7 @@ def _is_connected(parts: list[set[int]]) -> bool:
     piece, rest = set(parts[0]), parts[1:]
     while touching := [part for part in rest if piece & part]:
         piece.update(*touching)
-        rest = [part for part in rest if not piece & part]
+        rest = [part for part in rest if part not in touching]
     return not rest
 
 
@@ -269,8 +274,87 @@ def is_orientable(facets: Complex) -> bool:
             other = next(f for f in facets if f != facet and triangle < set(f))
             j = next(j for j, v in enumerate(other) if v not in triangle)
             sign = -signs[facet] * (-1) ** (i + j)
-            if signs.setdefault(other, sign) != sign:
+            if other not in signs:
+                signs[other] = sign
+                waiting.append(other)
+            elif signs[other] != sign:
                 return False
-            if other not in waiting and other != facet:
-                pass
     return True
+
+
+def spheres(vertices: int = 9, report: Report | None = None) -> list[Complex]:
+    """Return all triangulated 3-spheres with that many vertices, up to isomorphism.
+
+    Raises:
+        Undecided: A manifold is neither reached by bistellar moves nor non-orientable, so it is
+            unknown whether it is a sphere; or a sphere is not among the manifolds.
+    """
+    found = {sphere for sphere in moved(3, vertices) if len(vertices_of(sphere)) == vertices}
+    if report:
+        report(f"{len(found)} spheres with {vertices} vertices reached by bistellar moves")
+    all_manifolds = manifolds(vertices, report)
+    if not found <= all_manifolds:
+        raise Undecided("a sphere that bistellar moves reach is not among the manifolds")
+    others = all_manifolds - found
+    if any(is_orientable(manifold) for manifold in others):
+        raise Undecided("an orientable manifold is not reached by bistellar moves")
+    if report:
+        report(f"{len(all_manifolds)} manifolds, {len(others)} of them not orientable")
+    return sorted(found, key=lambda sphere: (len(sphere), sphere))
+
+
+def hexahedra(nine_vertex_spheres: Iterable[Complex]) -> Iterator[Complex]:
+    """Yield the triangulations of the hexahedron in these spheres, in the template's labels.
+
+    Each ball that is left when a vertex joined to all others is removed occurs once for each way
+    to pair its boundary triangles into the six facets, unless it has a boundary tetrahedron then.
+    The labels are one of the 48 choices, which the symmetries of the cube carry to each other.
+    """
+    facets = set(map(simplex, FACETS))
+    for sphere in nine_vertex_spheres:
+        for vertex in vertices_of(sphere):
+            star = [tetrahedron for tetrahedron in sphere if vertex in tetrahedron]
+            link = [tuple(v for v in tetrahedron if v != vertex) for tetrahedron in star]
+            if len(vertices_of(link)) == 8:
+                ball = [tetrahedron for tetrahedron in sphere if vertex not in tetrahedron]
+                for labels in template_labels(link):
+                    tetrahedra = relabelled(ball, labels)
+                    if facets.isdisjoint(tetrahedra):
+                        yield tetrahedra
+
+
+_CUBE = nx.Graph(
+    [tuple(sorted(edge)) for a, b, c, d in FACETS for edge in ((a, b), (b, c), (c, d), (d, a))]
+)
+"""The twelve edges of the template. Its cycles of length four are the six facets."""
+
+
+def template_labels(boundary: Iterable[Simplex]) -> Iterator[dict[int, int]]:
+    """Yield, for each way to make a sphere of twelve triangles the hexahedron's, one labelling.
+
+    A way is a choice of six edges, one in each triangle (the diagonals), such that the other
+    twelve are the edges of a cube. The two triangles at a diagonal have a cycle of four of these
+    around them, hence make a facet. Any other labelling for the same choice comes from the one
+    given by a symmetry of the cube, as the 48 are all automorphisms of the cube's graph.
+    """
+    triangles = list(boundary)
+    edges = {edge for triangle in triangles for edge in combinations(triangle, 2)}
+    for diagonals in _pairings(triangles):
+        graph = nx.Graph(sorted(edges - set(diagonals)))
+        if all(degree == 3 for _, degree in graph.degree) and len(graph) == 8:
+            labels = nx.vf2pp_isomorphism(graph, _CUBE)
+            if labels:
+                yield labels
+
+
+def _pairings(triangles: list[Simplex]) -> Iterator[list[Simplex]]:
+    """Yield every set of edges of a closed surface of which each triangle has exactly one."""
+    if not triangles:
+        yield []
+        return
+    first, *others = triangles
+    for edge in combinations(first, 2):
+        for other in others:
+            if set(edge) < set(other):
+                for rest in _pairings([triangle for triangle in others if triangle != other]):
+                    yield [edge, *rest]
