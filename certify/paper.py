@@ -52,3 +52,58 @@ def printed_status(name: str) -> str:
     if name == NEEDS_FINAL_POLYNOMIAL:
         return "not convex, by a final polynomial"
     return "not convex" if name in UNDERLINED else "convex"
+
+
+TABLE_1 = {
+    "combinatorial": ((1, 5, 5, 7, 13, 20, 35, 30, 28, 19, 11), 174),
+    "geometrical": ((1, 5, 5, 7, 13, 20, 35, 30, 28, 19, 8), 171),
+}
+"""Row -> its entries for 5, 6, ..., 15 tetrahedra, and the printed sum."""
+
+INSTANCES = (2, 4, 8, 12, 16, 24, 48)
+"""The numbers of instances that a class may have (section 1)."""
+
+VERTICES = 8
+EDGES = ("12", "14", "15", "23", "26", "34", "36", "48", "56", "58", "67", "78")
+FACETS = ("1234", "1265", "1485", "2376", "3487", "5678")
+"""The template of section 3. The list of edges is printed a second time, equal, in section 3.3."""
+
+CAPTION_REFERS_TO = ("the finite precision cube with seven tetrahedra", 4)
+CAPTION_MEANS = ("the boundary of the hexahedron", 7)
+"""The figure of triangulations that the big table's caption gives for its letters, the one that
+shows what they stand for, and the number of triangulations in each."""
+
+NO_UNIFORM_MATROID = (
+    *("12_U", "12_Y", "13_T", "13_W", "14_A", "14_N"),
+    *("14_O", "14_P", "14_R", "15_F", "15_H", "15_I"),
+)
+"""Said in section 4.4 to admit no uniform oriented matroid in convex position."""
+
+MESHES = (
+    ("Cube", 127, (1, 5, 2, 1, 0, 0, 0, 0, 0, 0, 0), 9),
+    ("Fusee", 11_975, (1, 5, 5, 7, 13, 9, 4, 0, 0, 0, 0), 44),
+    ("CShaft", 23_245, (1, 5, 5, 7, 13, 17, 6, 0, 0, 0, 0), 54),
+    ("Fusee_1", 71_947, (1, 5, 5, 7, 7, 1, 0, 0, 0, 0, 0), 26),
+    ("Caliper", 130_572, (1, 5, 5, 7, 7, 1, 0, 0, 0, 0, 0), 26),
+    ("CShaft2", 140_985, (1, 5, 5, 7, 8, 0, 1, 0, 0, 0, 0), 27),
+    ("Fusee_2", 161_888, (1, 5, 5, 7, 7, 1, 0, 0, 0, 0, 0), 26),
+    ("FT47_b", 221_780, (1, 5, 5, 7, 8, 2, 0, 0, 0, 0, 0), 28),
+    ("FT47", 370_401, (1, 5, 5, 7, 7, 2, 0, 0, 0, 0, 0), 27),
+    ("Fusee_3", 501_021, (1, 5, 5, 7, 8, 4, 0, 0, 0, 0, 0), 30),
+    ("Los1", 583_561, (1, 5, 5, 7, 7, 2, 0, 0, 0, 0, 0), 27),
+    ("Knuckle", 3_058_481, (1, 5, 5, 7, 8, 2, 0, 0, 0, 0, 0), 28),
+)
+"""Table 3: model, vertices, patterns found with 5, 6, ..., 15 tetrahedra, printed total."""
+
+RANDOM_POINTS = (
+    (3_000, (1, 5, 2, 7, 13, 16, 4, 0, 0, 0, 0), 51),
+    (10_000, (1, 5, 5, 7, 13, 19, 10, 2, 0, 0, 0), 62),
+    (20_000, (1, 5, 5, 7, 13, 19, 15, 2, 0, 0, 0), 67),
+    (100_000, (1, 5, 5, 7, 13, 20, 24, 5, 0, 0, 0), 80),
+    (500_000, (1, 5, 5, 7, 13, 20, 28, 12, 1, 0, 0), 92),
+    (1_000_000, (1, 5, 5, 7, 13, 20, 30, 14, 0, 0, 0), 95),
+    (2_000_000, (1, 5, 5, 7, 13, 20, 30, 15, 4, 1, 0), 101),
+    (5_000_000, (1, 5, 5, 7, 13, 20, 30, 16, 4, 1, 0), 102),
+    (10_000_000, (1, 5, 5, 7, 13, 20, 31, 16, 6, 1, 0), 105),
+)
+"""Table 4: random points, patterns found with 5, 6, ..., 15 tetrahedra, printed total."""

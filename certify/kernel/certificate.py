@@ -37,6 +37,7 @@ MAX_DIGITS = 40
 """Longest numerator or denominator: long enough for any honest point, too short to stall."""
 
 _QUADRUPLE = {"".join(map(str, quadruple)): quadruple for quadruple in QUADRUPLES}
+_DIGEST = re.compile(r"[0-9a-f]{64}")
 _FRACTION = re.compile(r"-?(0|[1-9][0-9]*)/[1-9][0-9]*")
 
 
@@ -109,7 +110,11 @@ def read_certificate(path: Path) -> Certificate:
 def read_proof(root: Path, name: str, digest: str | None = None) -> str:
     """Return the text of a proof, given by its path below ``root``, or raise Malformed."""
     path = root / name
-    if path.resolve().parent != (root / "proofs").resolve():
+    try:
+        folder = path.resolve().parent
+    except (OSError, RuntimeError):  # a circle of symbolic links
+        raise Malformed(f"{name} cannot be resolved") from None
+    if folder != (root / "proofs").resolve():
         raise Malformed(f"{name} is not in the folder of proofs")
     content = read_file(path, MAX_PROOF_BYTES)
     if digest is not None and sha256(content).hexdigest() != digest:
@@ -184,6 +189,8 @@ def _answer(value: object, pattern: str, question: str) -> Answer:
                 raise Malformed(f"{question}: proof is not proofs/{pattern}.{question}.lrat")
             polynomials = _list(record.get("final_polynomials", []), "final_polynomials")
             digest = _text(record["sha256"], "sha256")
+            if not _DIGEST.fullmatch(digest):
+                raise Malformed(f"{question}: sha256 is not 64 hexadecimal digits")
             return No(proof, digest, tuple(map(_final_polynomial, polynomials)))
     raise Malformed(f'{question}: answer is not "yes", "no" or "open"')
 
@@ -256,4 +263,4 @@ def _keys(record: dict[str, Any], needed: Iterable[str], optional: Iterable[str]
             raise Malformed(f'"{key}" is missing')
     for key in record:
         if key not in (*needed, *optional):
-            raise Malformed(f'"{key[:40]}" does not belong here')
+            raise Malformed(f"{key[:40]!a} does not belong here")

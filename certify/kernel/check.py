@@ -102,7 +102,7 @@ def check_certificate(certificate: Certificate, root: Path) -> Verdict:
     for question, answer in certificate.answers.items():
         try:
             answers[question] = check_answer(question, answer, signs, root)
-        except (NotRealized, NotRefuted) as error:
+        except (Malformed, NotRealized, NotRefuted) as error:
             raise Rejected(f"{question}: {error}") from None
     return Verdict(certificate.pattern, None, letter, instances, answers)
 

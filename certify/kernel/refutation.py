@@ -9,12 +9,18 @@ A refutation of a formula is an LRAT file (Cruz-Filipe, Heule, Hunt, Kaufmann an
 The clauses of the formula are numbered from 1 in the order in which the kernel writes them.
 """
 
+import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from certify.kernel.hexahedron import Simplex, inversions, simplex
 from certify.kernel.orientations import Clause, has_sign
+
+_STEP = re.compile(
+    r"([1-9][0-9]{0,8}) (?:(d )|((?:-?[1-9][0-9]{0,8} )*)0 )((?:[1-9][0-9]{0,8} )*)0", re.ASCII
+)
+"""Number, then "d" or literals and 0, then hints (or numbers to delete) and 0."""
 
 
 class NotRefuted(ValueError):
@@ -53,19 +59,15 @@ def replay(formula: Sequence[Clause], proof: str) -> int:
 
 def _read_line(line: str) -> tuple[int, bool, Clause, Clause]:
     """Return (number, is it a deletion, literals, hints or numbers to delete) of one line."""
-    number, *words = line.split(" ")
-    deletes = words[:1] == ["d"]
-    try:
-        numbers = [int(word) for word in words[deletes:]]
-        clause: Clause = ()
-        if not deletes:
-            end = numbers.index(0)
-            clause, numbers = tuple(numbers[:end]), numbers[end + 1 :]
-        if numbers.pop() != 0 or any(hint <= 0 for hint in numbers):
-            raise ValueError
-        return int(number), deletes, clause, tuple(numbers)
-    except (ValueError, IndexError):
-        raise NotRefuted("not an LRAT step by unit propagation") from None
+    match = _STEP.fullmatch(line)
+    if match is None:
+        raise NotRefuted("not an LRAT step by unit propagation")
+    number, deletes, literals, hints = match.groups(default="")
+    return int(number), bool(deletes), _numbers(literals), _numbers(hints)
+
+
+def _numbers(text: str) -> Clause:
+    return tuple(map(int, text.split()))
 
 
 def _require_implied(clause: Clause, hints: Sequence[Clause]) -> None:

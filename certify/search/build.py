@@ -58,10 +58,11 @@ def build(root: Path, jobs: int, report: Callable[[str], None]) -> None:
         (len(pattern.tetrahedra), pattern.boundary, status(pattern, answers))
         for pattern, answers in zip(found, findings, strict=True)
     ]
-    for folder in ("certificates", "proofs"):
+    for folder, endings in (("certificates", ["json"]), ("proofs", ["lrat", "drat"])):
         (root / folder).mkdir(parents=True, exist_ok=True)
-        for stale in (root / folder).iterdir():
-            stale.unlink()
+        for ending in endings:
+            for stale in (root / folder).glob(f"*.{ending}"):
+                stale.unlink()
     for name, pattern, answers in zip(assign_names(facts), found, findings, strict=True):
         write(root, name, pattern, answers)
     report("proving that no pattern is missing")
