@@ -101,6 +101,21 @@ def test_orientation_is_that_of_the_cube(tetrahedra: Tetrahedra) -> None:
 # All patterns: flips lead from balls to balls.
 
 
+def moves() -> Iterator[tuple[Simplex, Simplex, Complex, Complex]]:
+    """Yield all (edge, triangle, two, three): five vertices carry two tetrahedra, with a common
+    triangle, or three around an edge.
+    """
+    for five in combinations(VERTICES, 5):
+        for edge in combinations(five, 2):
+            triangle = tuple(v for v in five if v not in edge)
+            two = frozenset(tuple(sorted((*triangle, v))) for v in edge)
+            three = frozenset(tuple(v for v in five if v != w) for w in triangle)
+            yield edge, triangle, two, three
+
+
+MOVES = tuple(moves())
+
+
 def flips(tetrahedra: Complex) -> Iterator[Complex]:
     """Yield what one flip makes of a ball; boundary tetrahedra are allowed on the way.
 
@@ -108,15 +123,11 @@ def flips(tetrahedra: Complex) -> Iterator[Complex]:
     tetrahedron is laid on a facet, where it changes the diagonal to one that is new, or taken off.
     """
     edges, inner = faces(tetrahedra, 2), faces(tetrahedra, 3)
-    for five in combinations(VERTICES, 5):
-        for edge in combinations(five, 2):
-            triangle = tuple(v for v in five if v not in edge)
-            two = {tuple(sorted((*triangle, v))) for v in edge}
-            three = {tuple(v for v in five if v != w) for w in triangle}
-            if two <= tetrahedra and edge not in edges:
-                yield tetrahedra - two | three
-            if three <= tetrahedra and triangle not in inner and star(tetrahedra, edge) == three:
-                yield tetrahedra - three | two
+    for edge, triangle, two, three in MOVES:
+        if two <= tetrahedra and edge not in edges:
+            yield tetrahedra - two | three
+        if three <= tetrahedra and triangle not in inner and star(tetrahedra, edge) == three:
+            yield tetrahedra - three | two
     for facet in FACETS:
         if facet in tetrahedra:
             yield tetrahedra - {facet}
