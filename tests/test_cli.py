@@ -10,7 +10,7 @@ from concurrent.futures.process import BrokenProcessPool
 from hashlib import sha256
 from pathlib import Path
 from shutil import copy, copytree
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 from typing import Any
 from xml.etree import ElementTree
 
@@ -26,7 +26,7 @@ from certify.kernel.refutation import replay
 from certify.kernel.theorems import Theorem
 
 CHECKOUT = Path(__file__).resolve().parents[1]
-COMMANDS = ("check", "check-all", "list", "show", "export", "build")
+COMMANDS = ("check", "check-all", "list", "show", "export", "audit", "build", "spheres")
 
 Outcome = tuple[int, str, str]
 
@@ -587,6 +587,96 @@ def test_export_without_a_regular_drat_file(root: Path, place: Callable[[Path], 
     outcome = run(root, "export", "15_A", "realizable", "--to", str(to))
     assert_rejects(outcome, path.name, "")
     assert not to.exists()
+
+
+@pytest.mark.parametrize("letter", ["a", "g"])
+def test_export_of_completeness(tmp_path: Path, letter: str) -> None:
+    code, _, _ = run(CHECKOUT, "export", "complete", letter, "--to", str(tmp_path))
+    assert code == 0
+    stem = tmp_path / f"complete.{letter}"
+    lines = Path(f"{stem}.cnf").read_text().splitlines()
+    formula = [tuple(map(int, line.split()[:-1])) for line in lines if line[0] not in "cp"]
+    replay(formula, Path(f"{stem}.lrat").read_text())
+    lemmas = Path(f"{stem}.lrat").read_text().splitlines()
+    assert len(Path(f"{stem}.drat").read_text().splitlines()) == len(lemmas)
+
+
+def test_export_of_completeness_needs_all_patterns(root: Path) -> None:
+    to = root / "exported"
+    assert_asked_wrongly(run(root, "export", "complete", "h", "--to", str(to)), "no boundary type")
+    code, _, err = run(root, "export", "complete", "a", "--to", str(to))
+    assert code == 1
+    assert err.startswith("certify: rejected: certificates/6_A.json: ")
+    assert not to.exists()
+
+
+# show, for the engineer
+
+
+def test_show_gives_the_quality_of_a_valid_hexahedron(root: Path) -> None:
+    _, out, _ = run(root, "show", "5_A")
+    assert "Jacobian at least 1 on the closed cube" in out
+    assert f"vertices 1..8: {' '.join(['1.000'] * 8)}" in out
+
+
+# audit
+
+
+def test_audit_of_the_checkout() -> None:
+    code, record = run_json(CHECKOUT, "audit")
+    assert code == 0
+    assert record["rejected"] == []
+    assert sum(record["summary"].values()) == len(record["findings"])
+    corrected = {f["id"] for f in record["findings"] if f["verdict"] == "corrected"}
+    assert "discussion-smallest" in corrected
+
+
+def test_audit_prints_every_finding() -> None:
+    code, out, _ = run(CHECKOUT, "audit")
+    _, record = run_json(CHECKOUT, "audit")
+    assert code == 0
+    for finding in record["findings"]:
+        assert f"{finding['verdict']}: {finding['id']} ({finding['place']})" in out
+
+
+def test_audit_decides_nothing_on_rejected_certificates(root: Path) -> None:
+    code, record = run_json(root, "audit")
+    assert code == 1
+    assert record["summary"]["not decided here"] > len(record["findings"]) / 2
+    (smallest,) = (f for f in record["findings"] if f["id"] == "discussion-smallest")
+    assert smallest["verdict"] == "not decided here"
+
+
+# spheres
+
+
+def fake_decomposition(agrees: bool) -> ModuleType:
+    def second_derivation(report: Callable[[str], None]) -> SimpleNamespace:
+        report("looking")
+        findings = {"degree": SimpleNamespace(sentence="Four.", counterexamples=("x", "y"))}
+        return SimpleNamespace(
+            spheres=3, hexahedra={1, 2}, graphs=2, agrees=agrees, findings=findings
+        )
+
+    module = ModuleType("certify.search.decomposition")
+    module.__dict__["second_derivation"] = second_derivation
+    return module
+
+
+@pytest.mark.parametrize("agrees", [True, False])
+def test_spheres_tells_what_it_found(monkeypatch: pytest.MonkeyPatch, agrees: bool) -> None:
+    name = "certify.search.decomposition"
+    monkeypatch.setitem(sys.modules, name, fake_decomposition(agrees))
+    result = CliRunner().invoke(app, ["spheres"])
+    assert result.exit_code == (0 if agrees else 1)
+    assert result.stderr == "looking\n"
+    assert result.stdout.splitlines() == [
+        "false, 2 counterexamples: Four.",
+        f"{'ok' if agrees else 'not ok'}: 3 spheres with nine vertices, 2 classes of hexahedra, "
+        "2 of decomposition graphs",
+    ]
+    record = json.loads(CliRunner().invoke(app, ["spheres", "--json"]).stdout)
+    assert (record["spheres"], record["agrees"]) == (3, agrees)
 
 
 # build
