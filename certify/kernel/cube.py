@@ -45,7 +45,9 @@ def triangulates_finite_precision_cube(orientation: Mapping[Simplex, int]) -> bo
     """Does it triangulate the cube once slivers are allowed, and only then?
 
     A sliver is a core diagonal tetrahedron: four coplanar points that count as a tetrahedron of
-    volume zero, of either sign. All other tetrahedra have the sign of their orientation.
+    volume zero, of either sign. All other tetrahedra have the sign of their orientation. That is
+    enough: the boundary of the ball is mapped once onto that of the cube, so a point in no facet
+    of a tetrahedron is covered once, counted with signs, and no sign but the positive occurs.
     """
     slivers = {t for t in orientation if TETRAHEDRON_TYPES[t] == "core diagonal"}
     return bool(slivers) and all(
