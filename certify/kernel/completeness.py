@@ -9,7 +9,7 @@ unsatisfiable, then the list is complete for that boundary. Symmetries carry eac
 boundaries to one of seven.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from itertools import combinations
 
 from certify.kernel.chirotope import QUADRUPLES
@@ -27,7 +27,7 @@ def _containing(face: Simplex) -> list[int]:
     return [k for tetrahedron, k in _NUMBER.items() if set(face) <= set(tetrahedron)]
 
 
-def triangle_clauses(boundary: Iterable[Simplex]) -> Iterator[Clause]:
+def triangle_clauses(boundary: Collection[Simplex]) -> Iterator[Clause]:
     """A boundary triangle lies in one tetrahedron, every other in none or in two.
 
     Necessary: in a 3-manifold every triangle has one side or two, one iff it is in the boundary.
@@ -43,7 +43,7 @@ def triangle_clauses(boundary: Iterable[Simplex]) -> Iterator[Clause]:
             yield tuple(-k for k in several)
 
 
-def edge_clauses(boundary: Iterable[Simplex]) -> Iterator[Clause]:
+def edge_clauses(boundary: Collection[Simplex]) -> Iterator[Clause]:
     """The link of an edge is one path if the edge is in the boundary, else one cycle or empty.
 
     Necessary: in a 3-manifold the tetrahedra around an edge form a fan or a wheel. By the triangle
@@ -83,7 +83,7 @@ def _cycles(vertices: list[int], length: int) -> list[list[Simplex]]:
     ]
 
 
-def vertex_clauses(boundary: Iterable[Simplex]) -> Iterator[Clause]:
+def vertex_clauses(boundary: Collection[Simplex]) -> Iterator[Clause]:
     """The number of tetrahedra at a vertex is b - 2 + 2i.
 
     Here b boundary triangles and i edges that are not in the boundary meet at the vertex.
