@@ -169,7 +169,9 @@ def test_square_is_refuted(proof: str, steps: int) -> None:
 @pytest.mark.parametrize(
     ("proof", "why"),
     [
-        ("", "the proof ends without the empty clause"),
+        ("", "line 1: not an LRAT step by unit propagation"),
+        ("5 2 0 1 2 0\n6 0 5 3 4 0\n\n", "line 3: the proof goes on after the empty clause"),
+        ("5 2 0 1 2 0\x0c6 0 5 3 4 0", "line 1: not an LRAT step by unit propagation"),
         ("5 2 0 1 2 0", "the proof ends without the empty clause"),
         ("5 2 0 1 9 0", "line 1: there is no clause 9"),
         ("5 0 5 0", "line 1: there is no clause 5"),

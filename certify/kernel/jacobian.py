@@ -69,14 +69,14 @@ def halves(coefficients: Coefficients, axis: int) -> tuple[Coefficients, Coeffic
 
 def require_positive_jacobian(points: Sequence[Point]) -> int:
     """Raise :class:`NotRealized` unless J > 0 on [0,1]^3; return the depth of subdivision used."""
-    boxes = [bernstein_coefficients(points)]
-    for depth in range(MAX_DEPTH + 1):
-        boxes = [box for box in boxes if min(box.values()) <= 0]
-        if not boxes:
-            return depth
+    boxes, depth = [bernstein_coefficients(points)], 0
+    while boxes := [box for box in boxes if min(box.values()) <= 0]:
         for box in boxes:
             if min(box[corner] for corner in product((0, 2), repeat=3)) <= 0:
                 raise NotRealized("the Jacobian is not positive everywhere")
+        if depth == MAX_DEPTH:
+            raise NotRealized(f"the Jacobian is not shown positive by {MAX_DEPTH} subdivisions")
         for axis in range(3):
             boxes = [half for box in boxes for half in halves(box, axis)]
-    raise NotRealized(f"the Jacobian is not shown positive by {MAX_DEPTH} subdivisions")
+        depth += 1
+    return depth

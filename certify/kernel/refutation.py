@@ -37,7 +37,8 @@ def replay(formula: Sequence[Clause], proof: str) -> int:
     """
     clauses = dict(enumerate(formula, start=1))
     last = len(clauses)
-    for steps, line in enumerate(proof.splitlines(), start=1):
+    lines = proof.removesuffix("\n").split("\n")
+    for steps, line in enumerate(lines, start=1):
         try:
             number, deletes, clause, hints = _read_line(line)
             if deletes:
@@ -51,6 +52,8 @@ def replay(formula: Sequence[Clause], proof: str) -> int:
             raise NotRefuted(f"line {steps}: there is no clause {error.args[0]}") from None
         except NotRefuted as error:
             raise NotRefuted(f"line {steps}: {error}") from None
+        if not clause and steps < len(lines):
+            raise NotRefuted(f"line {steps + 1}: the proof goes on after the empty clause")
         if not clause:
             return steps
         clauses[number], last = clause, number
