@@ -1,0 +1,441 @@
+"""Whatever is wrong with a file, the verdict says so in one line, and nothing is raised."""
+
+import json
+from collections.abc import Callable, Iterator
+from hashlib import sha256
+from pathlib import Path
+from shutil import copy
+from typing import Any, TypeAlias
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from certify.kernel.certificate import MAX_CERTIFICATE_BYTES, MAX_PROOF_BYTES, QUESTIONS
+from certify.kernel.check import Verdict, check_pattern
+from tests.geometry import CUBE, VERTICES, examples, is_extreme, realizes, signs_of
+from tests.test_schema import Document, Spoil, document, drop, put
+
+YES, NO = "5_A", "15_A"
+"""Patterns with three answers of this kind."""
+
+PROOF = f"proofs/{NO}.realizable.lrat"
+
+Json: TypeAlias = Any
+Arrange: TypeAlias = Callable[[Path], object]
+
+
+@pytest.fixture
+def root(tmp_path: Path, shipped: Path) -> Path:
+    return partial_copy(shipped, tmp_path)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory, shipped: Path) -> Path:
+    """Return a root whose certificates are overwritten again and again."""
+    return partial_copy(shipped, tmp_path_factory.mktemp("root"))
+
+
+def partial_copy(shipped: Path, root: Path) -> Path:
+    """Copy the certificates of two patterns, with their proofs."""
+    for place in ("certificates", "proofs"):
+        (root / place).mkdir()
+        for name in (YES, NO):
+            for file in (shipped / place).glob(f"{name}.*"):
+                copy(file, root / place)
+    return root
+
+
+def path_of(root: Path, name: str = YES) -> Path:
+    return root / "certificates" / f"{name}.json"
+
+
+def fault(root: Path, name: str = YES) -> str:
+    """Return why the certificate is rejected, without the file's name, which comes first."""
+    verdict = check_pattern(root, name)
+    assert verdict == Verdict(name, fault=verdict.fault)
+    assert verdict.fault is not None
+    file, _, reason = verdict.fault.partition(": ")
+    assert file == f"certificates/{name}.json"
+    assert verdict.fault.isprintable()
+    return reason
+
+
+def test_what_is_spoiled_below_is_accepted(root: Path) -> None:
+    assert check_pattern(root, YES).answers == dict.fromkeys(QUESTIONS, "yes")
+    assert check_pattern(root, NO).answers == dict.fromkeys(QUESTIONS, "no")
+    path_of(root, "8_E").write_text(json.dumps(document()))
+    assert fault(root, "8_E") == "tetrahedra: 1234 is a boundary tetrahedron"
+
+
+# The file.
+
+
+def instead(place: Arrange) -> Arrange:
+    """Return what puts something else where a file was."""
+
+    def arrange(path: Path) -> None:
+        path.unlink()
+        place(path)
+
+    return arrange
+
+
+def link_to_nowhere(path: Path) -> None:
+    path.symlink_to("nowhere")
+
+
+def link_to_itself(path: Path) -> None:
+    path.symlink_to(path)
+
+
+ARRANGEMENTS: dict[str, tuple[Arrange, str]] = {
+    "missing": (Path.unlink, "5_A.json is missing or no regular file"),
+    "a folder": (instead(Path.mkdir), "5_A.json is missing or no regular file"),
+    "a broken link": (instead(link_to_nowhere), "5_A.json is missing or no regular file"),
+    "a circle of links": (instead(link_to_itself), "5_A.json is missing or no regular file"),
+    "no folder": (
+        lambda path: path.parent.rename(path.parents[1] / "elsewhere"),
+        "5_A.json is missing or no regular file",
+    ),
+    "too large": (
+        lambda path: path.write_bytes(path.read_bytes().ljust(MAX_CERTIFICATE_BYTES + 1)),
+        f"5_A.json is larger than {MAX_CERTIFICATE_BYTES} bytes",
+    ),
+    "of another name": (
+        lambda path: path_of(path.parents[1], NO).replace(path),
+        "pattern is not a pattern's name, or not that of the file",
+    ),
+}
+
+
+@pytest.mark.parametrize(("arrange", "reason"), ARRANGEMENTS.values(), ids=ARRANGEMENTS)
+def test_file_is_refused(root: Path, arrange: Arrange, reason: str) -> None:
+    arrange(path_of(root))
+    assert fault(root) == reason
+
+
+def test_largest_file_is_read(root: Path) -> None:
+    path = path_of(root)
+    path.write_bytes(path.read_bytes().ljust(MAX_CERTIFICATE_BYTES))
+    assert check_pattern(root, YES).fault is None
+
+
+def test_unreadable_file_is_refused(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(path: Path, mode: str) -> None:
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(Path, "open", refuse)
+    assert fault(root) == "5_A.json cannot be read: Permission denied"
+
+
+# Its text.
+
+
+TEXTS: dict[str, tuple[bytes, str]] = {
+    "empty": (b"", "not JSON: Expecting value"),
+    "not UTF-8": (b'{"format": "\xe9"}', "not UTF-8 text"),
+    "UTF-16": ("{}".encode("utf-16"), "not UTF-8 text"),
+    "a byte-order mark": (b"\xef\xbb\xbf{}", "not JSON: Unexpected UTF-8 BOM"),
+    "binary": (bytes(range(128)), "not JSON: "),
+    "truncated": (b'{"format": "certify-pat', "not JSON: Unterminated string"),
+    "continued": (b"{} {}", "not JSON: Extra data"),
+    "a comment": (b"{} // nothing", "not JSON: Extra data"),
+    "single quotes": (b"{'format': 1}", "not JSON: "),
+    "a control character": (b'{"for\nmat": 1}', "not JSON: Invalid control character"),
+    "nested lists": (b"[" * 100_000 + b"]" * 100_000, "nested too deeply"),
+    "nested objects": (b'{"a":' * 100_000, "nested too deeply"),
+    "a key twice": (b'{"format": 1, "format": 1}', "a key occurs twice in one object"),
+    "an escaped key twice": (b'{"a": 1, "\\u0061": 1}', "a key occurs twice in one object"),
+    "an inner key twice": (b'{"a": [{"b": 1, "b": 1}]}', "a key occurs twice in one object"),
+    "a float": (b'{"instances": 2.0}', "2.0 is not an integer"),
+    "an exponent": (b'{"instances": 1e999}', "1e999 is not an integer"),
+    "a long float": (b"0." + b"1" * 9999, f"0.{'1' * 18} is not an integer"),
+    "not a number": (b'{"instances": NaN}', "NaN is not an integer"),
+    "infinity": (b"[Infinity]", "Infinity is not an integer"),
+    "minus infinity": (b"-Infinity", "-Infinity is not an integer"),
+    "a huge integer": (b"1" * 5000, "an integer has more than 40 characters"),
+    "41 characters": (b"-" + b"1" * 40, "an integer has more than 40 characters"),
+    "no object": (b"[]", "the file is not an object"),
+    "null": (b"null", "the file is not an object"),
+}
+
+
+@pytest.mark.parametrize(("content", "reason"), TEXTS.values(), ids=TEXTS)
+def test_text_is_refused(root: Path, content: bytes, reason: str) -> None:
+    path_of(root).write_bytes(content)
+    assert fault(root).startswith(reason)
+
+
+# What it says. The document in test_schema.py is well formed.
+
+
+NAME = "pattern is not a pattern's name, or not that of the file"
+ORDER = "tetrahedra are not increasing quadruples of 1..8 in increasing order"
+VERTEX = "a vertex is not an integer"
+COORDINATE = "a coordinate that is no fraction p/q is not an integer"
+NO_PROOF = "valid: proof is not proofs/8_E.valid.lrat"
+SIGNS = "signs does not map quadruples like 1234 to -1, 0 or 1"
+SIX = "an inequality has not six different vertices"
+
+QUADS = "tetrahedra"
+POINTS = ("realizable", "points")
+POLYNOMIALS = ("valid", "final_polynomials")
+POLYNOMIAL = (*POLYNOMIALS, 0)
+INEQUALITY = (*POLYNOMIAL, "inequalities", 0)
+
+NO_COORDINATES: list[object] = [
+    *("1/0", "1/00", "1.5", "01/2", "1/02", "1/-2", "+1/2", "--1/2", " 1/2", "1/2\n", "1 /2"),
+    *("1/2/3", "1", "", "a/b", "1_0/3", "\u0661/\u0662", "\uff11/2", "\u00bd"),
+    *(None, True, [], {}, "1" * 40 + "/" + "1" * 99),
+]
+
+STATEMENTS: list[tuple[Spoil, str]] = [
+    *((drop(key), f'"{key}" is missing') for key in document()),
+    (put("extra", value=1), "'extra' does not belong here"),
+    (put("line\nbreak", value=1), r"'line\nbreak' does not belong here"),
+    (put("\ud800", value=1), r"'\ud800' does not belong here"),
+    (put("x" * 99, value=1), f"'{'x' * 40}' does not belong here"),
+    (put("format", value="certify-pattern/2"), 'format is not "certify-pattern/1"'),
+    (put("format", value=None), 'format is not "certify-pattern/1"'),
+    (put("pattern", value="8_D"), NAME),
+    (put("pattern", value="8_e"), NAME),
+    (put("pattern", value=8), "pattern is not a string"),
+    (put("boundary", value="h"), "boundary is not one of the letters a to g"),
+    (put("boundary", value="de"), "boundary is not one of the letters a to g"),
+    (put("boundary", value=["d"]), "boundary is not a string"),
+    (put("instances", value=True), "instances is not an integer"),
+    (put("instances", value="48"), "instances is not an integer"),
+    (put(QUADS, value={}), "tetrahedra is not a list"),
+    (put(QUADS, 0, value="1234"), "a tetrahedron is not a list"),
+    (put(QUADS, 0, 0, value=True), VERTEX),
+    (put(QUADS, 0, 0, value="1"), VERTEX),
+    (put(QUADS, 0, value=[2, 1, 3, 4]), ORDER),
+    (put(QUADS, 0, value=[1, 2, 3, 3]), ORDER),
+    (put(QUADS, 0, value=[1, 2, 3]), ORDER),
+    (put(QUADS, 0, value=[]), ORDER),
+    (put(QUADS, 0, value=[1, 2, 3, 4, 5]), ORDER),
+    (put(QUADS, 0, value=[0, 1, 2, 3]), ORDER),
+    (put(QUADS, 2, value=[6, 7, 8, 9]), ORDER),
+    (put(QUADS, 1, value=[1, 2, 3, 4]), ORDER),
+    (put(QUADS, value=document()[QUADS][::-1]), ORDER),
+    (put("convex", value="open"), "convex is not an object"),
+    (put("convex", value={}), 'convex: answer is not "yes", "no" or "open"'),
+    (put("convex", "answer", value="maybe"), 'convex: answer is not "yes", "no" or "open"'),
+    (put("convex", "answer", value=["yes"]), 'convex: answer is not "yes", "no" or "open"'),
+    (put("convex", "points", value=[]), "'points' does not belong here"),
+    (put("realizable", "proof", value=""), "'proof' does not belong here"),
+    (put("valid", "points", value=[]), "'points' does not belong here"),
+    (drop("realizable", "points"), '"points" is missing'),
+    (drop("valid", "proof"), '"proof" is missing'),
+    (drop("valid", "sha256"), '"sha256" is missing'),
+    # Points.
+    (put(*POINTS, value="points"), "points is not a list"),
+    (drop(*POINTS, 0), "realizable: there are not eight points"),
+    (put(*POINTS, value=[[0, 0, 0]] * 9), "realizable: there are not eight points"),
+    (put(*POINTS, 0, value=0), "a point is not a list"),
+    (put(*POINTS, 0, value=[0, 0]), "a point has not three coordinates"),
+    (put(*POINTS, 0, value=[0] * 4), "a point has not three coordinates"),
+    *((put(*POINTS, 0, 0, value=value), COORDINATE) for value in NO_COORDINATES),
+    # Refutations.
+    (put("valid", "proof", value=0), "proof is not a string"),
+    *(
+        (put("valid", "proof", value=path), NO_PROOF)
+        for path in [
+            *("", "proofs/../proofs/8_E.valid.lrat", "../proofs/8_E.valid.lrat"),
+            *("/proofs/8_E.valid.lrat", "./proofs/8_E.valid.lrat", "proofs//8_E.valid.lrat"),
+            *("proofs/8_D.valid.lrat", "proofs/8_E.convex.lrat", "proofs/8_E.valid.drat"),
+            *("proofs/8_E.valid.lrat\n", "proofs/8_E.valid.lrat\0", "proofs/8_e.valid.lrat"),
+        ]
+    ),
+    (put("valid", "sha256", value=0), "sha256 is not a string"),
+    *(
+        (put("valid", "sha256", value=digest), "valid: sha256 is not 64 hexadecimal digits")
+        for digest in ["", "0" * 63, "0" * 65, "0" * 64 + "\n", "A" * 64, "x" * 64, "\u0660" * 64]
+    ),
+    # Final polynomials.
+    (put(*POLYNOMIALS, value={}), "final_polynomials is not a list"),
+    (put(*POLYNOMIALS, value=None), "final_polynomials is not a list"),
+    (put(*POLYNOMIAL, value=[]), "a final polynomial is not an object"),
+    (put(*POLYNOMIAL, "extra", value=0), "'extra' does not belong here"),
+    (drop(*POLYNOMIAL, "signs"), '"signs" is missing'),
+    (drop(*POLYNOMIAL, "inequalities"), '"inequalities" is missing'),
+    (put(*POLYNOMIAL, "signs", value=[]), "signs is not an object"),
+    *(
+        (put(*POLYNOMIAL, "signs", key, value=1), SIGNS)
+        for key in ("", "123", "1243", "1123", "12345", "1239", "1 2 3 4", "\u0661234")
+    ),
+    (put(*POLYNOMIAL, "signs", "1234", value=2), SIGNS),
+    (put(*POLYNOMIAL, "signs", "1234", value=True), "a sign is not an integer"),
+    (put(*POLYNOMIAL, "signs", "1234", value="1"), "a sign is not an integer"),
+    (put(*POLYNOMIAL, "inequalities", value={}), "inequalities is not a list"),
+    (put(*INEQUALITY, value={}), "an inequality is not a list"),
+    (put(*INEQUALITY, value=[1]), "an inequality is not [multiplier, vertices]"),
+    (put(*INEQUALITY, value=[1, [], 1]), "an inequality is not [multiplier, vertices]"),
+    (put(*INEQUALITY, 0, value=True), "a multiplier is not an integer"),
+    (put(*INEQUALITY, 0, value="1"), "a multiplier is not an integer"),
+    (put(*INEQUALITY, 1, value="123456"), "the indices is not a list"),
+    (put(*INEQUALITY, 1, value=[1, 2, 3, 4, 5]), SIX),
+    (put(*INEQUALITY, 1, value=[1, 2, 3, 4, 5, 5]), SIX),
+    (put(*INEQUALITY, 1, value=[1, 2, 3, 4, 5, 6, 7]), SIX),
+    (put(*INEQUALITY, 1, value=[0, 2, 3, 4, 5, 6]), SIX),
+    (put(*INEQUALITY, 1, value=[1, 2, 3, 4, 5, 9]), SIX),
+    (put(*INEQUALITY, 1, 0, value="1"), VERTEX),
+    (put(*INEQUALITY, 1, 0, value=True), VERTEX),
+]
+
+
+@pytest.mark.parametrize(("spoil", "reason"), STATEMENTS)
+def test_statement_is_refused(root: Path, spoil: Spoil, reason: str) -> None:
+    content = document()
+    spoil(content)
+    path_of(root, "8_E").write_text(json.dumps(content))
+    assert fault(root, "8_E") == reason
+
+
+# Its proofs.
+
+
+def elsewhere(path: Path) -> Path:
+    """Move the proof out of the folder of proofs."""
+    return path.replace(path.parents[1] / path.name)
+
+
+PROOFS: dict[str, tuple[Arrange, str]] = {
+    "missing": (Path.unlink, "15_A.realizable.lrat is missing or no regular file"),
+    "a folder": (instead(Path.mkdir), "15_A.realizable.lrat is missing or no regular file"),
+    "no folder": (
+        lambda path: path.parent.rename(path.parents[1] / "elsewhere"),
+        "15_A.realizable.lrat is missing or no regular file",
+    ),
+    "a link that leaves the folder": (
+        lambda path: path.symlink_to(elsewhere(path)),
+        f"{PROOF} is not in the folder of proofs",
+    ),
+    "a broken link": (
+        instead(link_to_nowhere),
+        "15_A.realizable.lrat is missing or no regular file",
+    ),
+    "of another digest": (
+        lambda path: path.write_bytes(path.read_bytes() + b"\n"),
+        f"{PROOF} has not the stated sha256",
+    ),
+    "empty": (lambda path: path.write_bytes(b""), f"{PROOF} has not the stated sha256"),
+    "too large": (
+        lambda path: path.open("ab").truncate(MAX_PROOF_BYTES + 1),
+        f"15_A.realizable.lrat is larger than {MAX_PROOF_BYTES} bytes",
+    ),
+}
+
+
+@pytest.mark.parametrize(("arrange", "reason"), PROOFS.values(), ids=PROOFS)
+def test_proof_is_refused(root: Path, arrange: Arrange, reason: str) -> None:
+    arrange(root / PROOF)
+    assert fault(root, NO) == f"realizable: {reason}"
+
+
+def test_circle_of_links_is_refused(root: Path) -> None:
+    """What it is said to be depends on the version of Python."""
+    instead(link_to_itself)(root / PROOF)
+    assert fault(root, NO).startswith("realizable: ")
+
+
+def test_other_proof_than_ascii_is_refused(root: Path) -> None:
+    content = (root / PROOF).read_bytes() + "\u0661".encode()
+    (root / PROOF).write_bytes(content)
+    record = json.loads(path_of(root, NO).read_bytes())
+    record["realizable"]["sha256"] = sha256(content).hexdigest()
+    path_of(root, NO).write_text(json.dumps(record))
+    assert fault(root, NO) == f"realizable: {PROOF} is not ASCII text"
+
+
+# Anything else.
+
+
+def is_accepted(root: Path, original: Verdict) -> bool:
+    """Is the file accepted? If so, what it says now is true.
+
+    Points are looked at again by other means: those of the class of 5_A, whose instances are
+    oriented as the unit cube is.
+    """
+    name = original.pattern
+    verdict = check_pattern(root, name)
+    if verdict.fault is not None:
+        assert fault(root, name)
+        return False
+    assert verdict.boundary == original.boundary
+    assert verdict.instances == original.instances
+    record = json.loads(path_of(root, name).read_bytes())
+    signs = {t: signs_of(CUBE)[t] for t in map(tuple, record["tetrahedra"])}
+    for question, answer in verdict.answers.items():
+        assert answer in (original.answers[question], "open")
+        if answer == "yes":
+            placement = tuple(map(tuple, record[question]["points"]))
+            assert realizes(placement, signs)
+            assert question != "convex" or all(is_extreme(placement, v) for v in VERTICES)
+    return True
+
+
+JSON: st.SearchStrategy[Json] = st.recursive(
+    st.one_of(
+        st.none(),
+        st.booleans(),
+        st.integers(-9, 9),
+        st.integers(),
+        st.floats(),
+        st.text(max_size=5),
+        st.sampled_from(["1/2", "-7/3", "yes", "no", "open", PROOF]),
+    ),
+    lambda values: st.one_of(
+        st.lists(values, max_size=4),
+        st.dictionaries(st.text(max_size=3) | st.sampled_from([*document()]), values, max_size=4),
+    ),
+    max_leaves=8,
+)
+
+
+@examples(200)
+@given(st.binary(max_size=60) | JSON.map(lambda value: json.dumps(value).encode()))
+def test_anything_is_rejected(folder: Path, content: bytes) -> None:
+    path_of(folder).write_bytes(content)
+    assert fault(folder)
+
+
+def places(value: Json, way: tuple[str | int, ...] = ()) -> Iterator[tuple[str | int, ...]]:
+    """Yield the ways to all that is inside a JSON value."""
+    items: list[tuple[str | int, Json]] = []
+    if isinstance(value, dict):
+        items = list(value.items())
+    if isinstance(value, list):
+        items = list(enumerate(value))
+    for key, inner in items:
+        yield (*way, key)
+        yield from places(inner, (*way, key))
+
+
+@pytest.mark.parametrize("name", [YES, NO])
+@examples(200)
+@given(data=st.data())
+def test_a_document_with_another_value_is_rejected_or_true(
+    folder: Path, shipped: Path, verdicts: dict[str, Verdict], name: str, data: st.DataObject
+) -> None:
+    record: Document = json.loads(path_of(shipped, name).read_bytes())
+    place = data.draw(st.sampled_from(list(places(record))))
+    change = drop(*place) if data.draw(st.booleans()) else put(*place, value=data.draw(JSON))
+    change(record)
+    path_of(folder, name).write_text(json.dumps(record))
+    is_accepted(folder, verdicts[name])
+
+
+@pytest.mark.parametrize("name", [YES, NO])
+def test_a_file_with_another_character_is_rejected_or_true(
+    folder: Path, shipped: Path, verdicts: dict[str, Verdict], name: str
+) -> None:
+    """In turn, a character is dropped, doubled, or replaced by some digit."""
+    text = path_of(shipped, name).read_text()
+    accepted = []
+    for k, old in enumerate(text):
+        new = ("", 2 * old, str((7 * k + ord(old)) % 10))[k % 3]
+        path_of(folder, name).write_text(text[:k] + new + text[k + 1 :])
+        accepted.append(is_accepted(folder, verdicts[name]))
+    assert {True, False} == set(accepted)

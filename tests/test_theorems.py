@@ -1,0 +1,381 @@
+"""Theorems are shown by all they rest on together; what they state is counted again."""
+
+import json
+import re
+from collections import Counter
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import combinations, product
+from pathlib import Path
+from random import Random
+from typing import Any
+
+import pytest
+
+from certify.kernel.certificate import PATTERN_NAMES, QUESTIONS
+from certify.kernel.check import Completeness, Verdict
+from certify.kernel.cube import TETRAHEDRON_TYPES, triangulates_cube
+from certify.kernel.theorems import Theorem, theorems
+from certify.kernel.triangulation import orientation
+from tests.geometry import (
+    CUBE,
+    QUADRUPLES,
+    VERTICES,
+    Tetrahedra,
+    cube_symmetries,
+    dot,
+    meet_in_common_face,
+    minus,
+    relabel,
+    strictly_inside,
+    volume,
+)
+
+Verdicts = dict[str, Verdict]
+
+ALL = [theorem.id for theorem in theorems([], [])]
+OF_THE_TEMPLATE = ["boundaries", "tetrahedra"]
+OF_THE_LIST = ["patterns", "sizes", "letters", "instances"]
+OF_THE_CUBE = ["cube", "finite-precision-cube", "ten"]
+OF_SPACE = ["realizable", "realizable-sizes", "convex", "valid", "not-valid", "valid-sizes"]
+
+every_theorem = pytest.mark.parametrize("name", ALL)
+every_theorem_about_patterns = pytest.mark.parametrize(
+    "name", [name for name in ALL if name not in OF_THE_TEMPLATE]
+)
+
+
+def shown(verdicts: Verdicts, completeness: list[Completeness]) -> set[str]:
+    """Return the ids of the theorems that are shown."""
+    return {theorem.id for theorem in theorems(list(verdicts.values()), completeness) if theorem.ok}
+
+
+@pytest.fixture(scope="module")
+def proved(verdicts: Verdicts, completeness: list[Completeness]) -> dict[str, Theorem]:
+    """Return the theorems that the shipped certificates show, by id."""
+    found = theorems(list(verdicts.values()), completeness)
+    return {theorem.id: theorem for theorem in found if theorem.ok}
+
+
+# What they rest on.
+
+
+def test_ids_are_unique() -> None:
+    assert [*OF_THE_TEMPLATE, *OF_THE_LIST, *OF_THE_CUBE, *OF_SPACE] == ALL
+
+
+@every_theorem
+def test_shipped_certificates_show(proved: dict[str, Theorem], name: str) -> None:
+    theorem = proved[name]
+    assert bool(theorem.rests_on) == (name not in OF_THE_TEMPLATE)
+    assert theorem.statement.endswith(".")
+
+
+def test_theorems_rest_on_existing_files(shipped: Path, proved: dict[str, Theorem]) -> None:
+    for theorem in proved.values():
+        assert all(list(shipped.glob(pattern)) for pattern in theorem.rests_on)
+
+
+def test_nothing_shows_the_theorems_of_the_template_only() -> None:
+    assert shown({}, []) == set(OF_THE_TEMPLATE)
+
+
+SOME = ["5_A", "7_B", "11_AD", "12_U", "15_A", "15_C", "15_K"]
+"""Patterns of all kinds."""
+
+
+@pytest.mark.parametrize("name", SOME)
+def test_no_theorem_about_patterns_without(
+    verdicts: Verdicts, completeness: list[Completeness], name: str
+) -> None:
+    """A certificate is missing, rejected, or about the class of another pattern."""
+    others = {other: verdict for other, verdict in verdicts.items() if other != name}
+    assert shown(others, completeness) == set(OF_THE_TEMPLATE)
+
+    rejected = Verdict(name, fault="spoiled")
+    assert shown(verdicts | {name: rejected}, completeness) == set(OF_THE_TEMPLATE)
+
+    for other in ("5_A", "15_J"):
+        double = replace(verdicts[name], instances=verdicts[other].instances)
+        assert (shown(verdicts | {name: double}, completeness) == set(ALL)) == (name == other)
+
+
+@pytest.mark.parametrize("letter", "abcdefg")
+def test_no_theorem_about_patterns_unless_complete_for(
+    verdicts: Verdicts, completeness: list[Completeness], letter: str
+) -> None:
+    others = [found for found in completeness if found.boundary != letter]
+    faulty = Completeness(letter, "spoiled")
+    assert shown(verdicts, others) == set(OF_THE_TEMPLATE)
+    assert shown(verdicts, [*others, faulty]) == set(OF_THE_TEMPLATE)
+    assert shown(verdicts, [*others, Completeness(letter)]) == set(ALL)
+
+
+def answering(verdicts: Verdicts, name: str, question: str, answer: str) -> Verdicts:
+    """Return the verdicts with another answer for one pattern."""
+    verdict = verdicts[name]
+    return verdicts | {name: replace(verdict, answers=verdict.answers | {question: answer})}
+
+
+DECIDED = {
+    "realizable": {"realizable", "realizable-sizes"},
+    "convex": {"convex"},
+    "valid": {"valid", "valid-sizes"},
+}
+"""Question -> theorems that need all 174 answers."""
+
+
+@pytest.mark.parametrize("question", QUESTIONS)
+@pytest.mark.parametrize("name", SOME)
+def test_open_and_opposite_answers_do_not_count(
+    verdicts: Verdicts, completeness: list[Completeness], name: str, question: str
+) -> None:
+    opposite = {"yes": "no", "no": "yes"}[verdicts[name].answers[question]]
+    for answer, no_more in (("open", DECIDED[question]), (opposite, {question})):
+        still = shown(answering(verdicts, name, question, answer), completeness)
+        assert still.isdisjoint(no_more)
+        assert still >= {*OF_THE_TEMPLATE, *OF_THE_LIST, *OF_THE_CUBE}
+
+
+@pytest.mark.xfail(strict=True, reason="these theorems do not ask whether all is decided")
+@pytest.mark.parametrize(
+    ("theorem", "question", "name"),
+    [("not-valid", "valid", "5_A"), ("convex", "realizable", "15_A")],
+)
+def test_open_answers_are_not_counted_as_the_others(
+    verdicts: Verdicts, completeness: list[Completeness], theorem: str, question: str, name: str
+) -> None:
+    """As long as one is open, it is not known of how many these are the others."""
+    assert theorem not in shown(answering(verdicts, name, question, "open"), completeness)
+
+
+# What they state, counted again from the files and from scratch.
+
+
+@dataclass(frozen=True)
+class Shipped:
+    """What the certificates say, and nothing that the kernel makes of it."""
+
+    records: dict[str, Any]
+
+    def answering(self, question: str, answer: str) -> list[str]:
+        return [n for n, r in self.records.items() if r[question]["answer"] == answer]
+
+    def tetrahedra(self, name: str) -> Tetrahedra:
+        return tuple(map(tuple, self.records[name]["tetrahedra"]))
+
+    def row(self, names: list[str]) -> list[int]:
+        """Return how many of the patterns have 5, 6, ..., 15 tetrahedra."""
+        sizes = Counter(len(self.tetrahedra(name)) for name in names)
+        return [sizes[size] for size in range(5, 16)]
+
+    @cached_property
+    def classes(self) -> dict[str, int]:
+        """Return the number of instances of each pattern."""
+        return {
+            name: len({relabel(s, self.tetrahedra(name)) for s in cube_symmetries()})
+            for name in self.records
+        }
+
+    def filling(self, slivers: bool) -> list[str]:
+        """Return the patterns that fill the cube without or with core diagonals."""
+        return [
+            name
+            for name in self.records
+            if (solid := solids(self.tetrahedra(name))) and fill_the_cube(solid)
+            if (len(solid) < len(self.tetrahedra(name))) == slivers
+            if slivers or all(meet_in_common_face(CUBE, s, t) for s, t in combinations(solid, 2))
+        ]
+
+
+@pytest.fixture(scope="module")
+def said(shipped: Path) -> Shipped:
+    paths = {name: shipped / "certificates" / f"{name}.json" for name in PATTERN_NAMES}
+    return Shipped({name: json.loads(path.read_bytes()) for name, path in paths.items()})
+
+
+SIXTHS = {q: abs(volume(*(CUBE[v - 1] for v in q))) for q in QUADRUPLES}
+"""Volumes in the unit cube, in sixths."""
+
+
+def solids(tetrahedra: Tetrahedra) -> Tetrahedra:
+    return tuple(t for t in tetrahedra if SIXTHS[t])
+
+
+SIDE = 10**9
+DICE = Random(12)
+SAMPLES = [tuple(DICE.randrange(SIDE) for _ in range(3)) for _ in range(300)]
+INSIDE = {
+    q: sum(
+        1 << n
+        for n, point in enumerate(SAMPLES)
+        if strictly_inside(point, [tuple(SIDE * x for x in CUBE[v - 1]) for v in q])
+    )
+    for q in QUADRUPLES
+}
+"""Quadruple -> which of the sample points in the cube are inside, as a set of bits.
+
+None of them is by chance in a plane through vertices: some tetrahedra would be missing below.
+"""
+
+
+def fill_the_cube(solid: Tetrahedra) -> bool:
+    """Have they the volume of the cube, and do no two share a sample point?"""
+    return sum(SIXTHS[t] for t in solid) == 6 and not any(
+        INSIDE[s] & INSIDE[t] for s, t in combinations(solid, 2)
+    )
+
+
+def boundary_classes() -> list[int]:
+    """Return the sizes of the classes of triangulated boundaries."""
+    facets = [[v for v in VERTICES if CUBE[v - 1][axis] == k] for axis in range(3) for k in (0, 1)]
+    diagonals = [[e for e in combinations(facet, 2) if squared_length(e) == 2] for facet in facets]
+    boundaries = {frozenset(choice) for choice in product(*diagonals)}
+    orbits = {frozenset(relabel(s, boundary) for s in cube_symmetries()) for boundary in boundaries}
+    assert len(boundaries) == sum(map(len, orbits))
+    return sorted(map(len, orbits))
+
+
+def squared_length(edge: tuple[int, ...]) -> int:
+    v, w = edge
+    return dot(*[minus(CUBE[v - 1], CUBE[w - 1])] * 2)
+
+
+EDGES_OF_TYPE = {
+    "corner": (1, 1, 1, 2, 2, 2),
+    "staircase": (1, 1, 1, 2, 2, 3),
+    "slanted": (1, 1, 2, 2, 2, 3),
+    "core": (2, 2, 2, 2, 2, 2),
+    "core diagonal": (1, 1, 2, 2, 3, 3),
+    "boundary": (1, 1, 1, 1, 2, 2),
+}
+"""The squared lengths of the edges of four vertices of the cube, in increasing order."""
+
+
+def edges_of(quadruple: tuple[int, ...]) -> tuple[int, ...]:
+    return tuple(sorted(map(squared_length, combinations(quadruple, 2))))
+
+
+def test_types_are_those_of_congruent_tetrahedra() -> None:
+    for quadruple, kind in TETRAHEDRON_TYPES.items():
+        assert edges_of(quadruple) == EDGES_OF_TYPE[kind]
+        assert (SIXTHS[quadruple] == 0) == (kind in ("core diagonal", "boundary"))
+    assert TETRAHEDRON_TYPES.keys() == set(QUADRUPLES)
+
+
+def type_counts() -> list[int]:
+    counts = Counter(map(edges_of, QUADRUPLES))
+    return [counts[edges] for edges in EDGES_OF_TYPE.values()]
+
+
+COUNTED: dict[str, Callable[[Shipped], list[object]]] = {
+    "boundaries": lambda _: [64, 7, *boundary_classes()],
+    "tetrahedra": lambda _: [*type_counts()],
+    "patterns": lambda said: [len(said.records), len(cube_symmetries())],
+    "sizes": lambda said: [*said.row([*said.records]), 5, 6, 15],
+    "letters": lambda said: [
+        *(sum(r["boundary"] == letter for r in said.records.values()) for letter in "abcdefg")
+    ],
+    "instances": lambda said: [
+        *sorted(set(said.classes.values())),
+        sum(said.classes.values()),
+    ],
+    "cube": lambda said: [
+        sum(said.classes[name] for name in said.filling(slivers=False)),
+        len(said.filling(slivers=False)),
+        *sorted(said.classes[name] for name in said.filling(slivers=False)),
+        *sorted({len(said.tetrahedra(name)) for name in said.filling(slivers=False)}),
+    ],
+    "finite-precision-cube": lambda said: [
+        *{len(said.tetrahedra(name)) for name in said.filling(slivers=True)},
+        *said.filling(slivers=True),
+    ],
+    "ten": lambda said: [
+        7,
+        *(
+            name
+            for name in said.records
+            if len(said.tetrahedra(name)) <= 7
+            and name not in (*said.filling(slivers=False), *said.filling(slivers=True))
+        ),
+    ],
+    "realizable": lambda said: [
+        len(said.answering("realizable", "yes")),
+        *said.answering("realizable", "no"),
+    ],
+    "realizable-sizes": lambda said: [*said.row(said.answering("realizable", "yes")), 5, 6, 15],
+    "convex": lambda said: [
+        len(said.answering("convex", "yes")),
+        len(set(said.answering("convex", "no")) & set(said.answering("realizable", "yes"))),
+    ],
+    "valid": lambda said: [len(said.answering("valid", "yes"))],
+    "not-valid": lambda said: [
+        len(invalid := set(said.answering("valid", "no"))),
+        len(invalid & set(said.answering("realizable", "no"))),
+        len(
+            invalid & set(said.answering("realizable", "yes")) & set(said.answering("convex", "no"))
+        ),
+        len(invalid & set(said.answering("convex", "yes"))),
+    ],
+    "valid-sizes": lambda said: [
+        *extreme(said, said.answering("valid", "no"), min),
+        *extreme(said, said.answering("valid", "yes"), max),
+    ],
+}
+"""Id -> the numbers and names that the statement has, in this order."""
+
+
+def extreme(said: Shipped, names: list[str], choose: Callable[[Iterator[int]], int]) -> list[str]:
+    """Return the names with the fewest or the most tetrahedra."""
+    best = choose(len(said.tetrahedra(name)) for name in names)
+    return [name for name in names if len(said.tetrahedra(name)) == best]
+
+
+@every_theorem
+def test_statement_is_what_is_counted(proved: dict[str, Theorem], said: Shipped, name: str) -> None:
+    words = re.findall(r"\d+_[A-Z]+|\d+", proved[name].statement)
+    stated = [word if "_" in word else int(word) for word in words]
+    if name == "boundaries":
+        assert stated[:2] == COUNTED[name](said)[:2]
+        stated[2:] = sorted(stated[2:])
+    assert stated == COUNTED[name](said)
+
+
+def fillings() -> Iterator[Tetrahedra]:
+    """Yield the sets of tetrahedra in which every sample point is exactly once."""
+    everywhere = (1 << len(SAMPLES)) - 1
+
+    def extend(chosen: Tetrahedra, covered: int) -> Iterator[Tetrahedra]:
+        if covered == everywhere:
+            yield tuple(sorted(chosen))
+            return
+        first = ~covered & (covered + 1)
+        for quadruple, inside in INSIDE.items():
+            if inside & first and not inside & covered:
+                yield from extend((*chosen, quadruple), covered | inside)
+
+    return extend((), 0)
+
+
+def fit_face_to_face(tetrahedra: Tetrahedra) -> bool:
+    """Is every triangle in two tetrahedra, or in one and on a facet?"""
+    count = Counter(face for t in tetrahedra for face in combinations(t, 3))
+    return all(
+        times == 2 - any(len({CUBE[v - 1][axis] for v in face}) == 1 for axis in range(3))
+        for face, times in count.items()
+    )
+
+
+def test_the_cube_is_filled_by_its_74_triangulations(verdicts: Verdicts) -> None:
+    """All sets that fill the cube, by sample points, and those of them that fit face to face."""
+    found = set(fillings())
+    assert all(fill_the_cube(tetrahedra) for tetrahedra in found)
+    triangulations = {tetrahedra for tetrahedra in found if fit_face_to_face(tetrahedra)}
+    assert len(triangulations) == 74 < len(found)
+    assert triangulations == {
+        instance
+        for verdict in verdicts.values()
+        if triangulates_cube(orientation(min(verdict.instances)))
+        for instance in verdict.instances
+    }
