@@ -63,8 +63,8 @@ def test_lower_bound_is_a_volume(placement: Placement, scale: Fraction) -> None:
 
 
 def test_lower_bound_is_sharp_at_corners() -> None:
-    """It is near the least value, which is at a corner: there a box has a coefficient."""
-    points = exact([*CUBE[:6], (Fraction(2, 3), Fraction(2, 3), Fraction(2, 3)), CUBE[7]])
+    """A value at a corner is a coefficient, and here the least."""
+    points = exact([*CUBE[:6], (Fraction(4, 5),) * 3, CUBE[7]])
     least = min(jacobian_at(points, place) for place in GRID)
     assert least == jacobian_at(points, (Fraction(1),) * 3) > 0
     assert jacobian_lower_bound(points) == least

@@ -138,7 +138,6 @@ def test_open_and_opposite_answers_do_not_count(
         assert still >= {*OF_THE_TEMPLATE, *OF_THE_LIST, *OF_THE_CUBE}
 
 
-@pytest.mark.xfail(strict=True, reason="these theorems do not ask whether all is decided")
 @pytest.mark.parametrize(
     ("theorem", "question", "name"),
     [("not-valid", "valid", "5_A"), ("convex", "realizable", "15_A")],
