@@ -8,6 +8,7 @@ from math import lcm
 from pathlib import Path
 from typing import NamedTuple, TypeVar
 
+import numpy as np
 import pytest
 
 from certify.kernel.certificate import (
@@ -26,6 +27,7 @@ from certify.kernel.hexahedron import BOUNDARY_TYPES, Simplex
 from certify.kernel.refutation import FinalPolynomial
 from certify.kernel.triangulation import orientation
 from tests.geometry import QUADRUPLES, VERTICES, Placement, exact, is_extreme, realizes
+from tests.test_validity import determinants
 
 Points = tuple[Point, ...]
 Certificates = dict[str, Certificate]
@@ -146,6 +148,27 @@ def test_spoiled_points_are_rejected(shipped: Path, certificates: Certificates, 
             found = fault(answering(certificate, question, Yes(move(points))), shipped)
             assert found.startswith(f"{question}: tetrahedron ")
             assert found.endswith((" is degenerate", " is inverted"))
+
+
+@pytest.mark.parametrize("name", ["5_A", "6_A", "6_C", "7_B", "8_C"])
+def test_overlapping_tetrahedra_are_rejected(
+    shipped: Path, certificates: Certificates, name: str
+) -> None:
+    """Random points, where all determinants have the right signs and yet solid tetrahedra meet."""
+    certificate = certificates[name]
+    signs = orientation(certificate.tetrahedra)
+    anything = np.random.default_rng(15).integers(0, 20, (100_000, 8, 3))
+    right = np.sign(determinants(anything, list(signs))) == list(signs.values())
+    overlapping = [
+        points
+        for rows in anything[right.all(axis=1)][:50].tolist()
+        if not realizes(placement(points := exact(rows)), signs)
+    ]
+    assert overlapping
+    for points in overlapping:
+        found = fault(answering(certificate, "realizable", Yes(points)), shipped)
+        assert found.startswith("realizable: faces ")
+        assert found.endswith(" intersect")
 
 
 def test_points_of_one_question_do_not_answer_the_next(
