@@ -301,6 +301,11 @@ def elsewhere(path: Path) -> Path:
     return path.replace(path.parents[1] / path.name)
 
 
+def linked_folder(path: Path) -> None:
+    """Put a link in the place of the folder of proofs."""
+    path.parent.symlink_to(path.parent.rename(path.parents[1] / "elsewhere"))
+
+
 PROOFS: dict[str, tuple[Arrange, str]] = {
     "missing": (Path.unlink, "15_A.realizable.lrat is missing or no regular file"),
     "a folder": (instead(Path.mkdir), "15_A.realizable.lrat is missing or no regular file"),
@@ -310,6 +315,10 @@ PROOFS: dict[str, tuple[Arrange, str]] = {
     ),
     "a link that leaves the folder": (
         lambda path: path.symlink_to(elsewhere(path)),
+        f"{PROOF} is not in the folder of proofs",
+    ),
+    "in a folder that is a link": (
+        linked_folder,
         f"{PROOF} is not in the folder of proofs",
     ),
     "a broken link": (

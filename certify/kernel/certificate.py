@@ -34,7 +34,7 @@ PATTERN_NAMES: tuple[str, ...] = tuple(
 MAX_CERTIFICATE_BYTES = 1 << 20
 MAX_PROOF_BYTES = 1 << 24
 MAX_DIGITS = 40
-"""Longest numerator or denominator: long enough for any honest point, too short to stall."""
+"""Longest integer, and half the longest fraction: enough for honest points, too short to stall."""
 
 _QUADRUPLE = {"".join(map(str, quadruple)): quadruple for quadruple in QUADRUPLES}
 _DIGEST = re.compile(r"[0-9a-f]{64}")
@@ -111,10 +111,10 @@ def read_proof(root: Path, name: str, digest: str | None = None) -> str:
     """Return the text of a proof, given by its path below ``root``, or raise Malformed."""
     path = root / name
     try:
-        folder = path.resolve().parent
+        inside = path.resolve().parent == root.resolve() / "proofs"
     except (OSError, RuntimeError):  # a circle of symbolic links
         raise Malformed(f"{name} cannot be resolved") from None
-    if folder != (root / "proofs").resolve():
+    if not inside:
         raise Malformed(f"{name} is not in the folder of proofs")
     content = read_file(path, MAX_PROOF_BYTES)
     if digest is not None and sha256(content).hexdigest() != digest:
