@@ -2,5 +2,5 @@
 
 Standard library and sympy only; nothing outside this package is imported. Read the modules in
 this order: hexahedron, triangulation, chirotope, embedding, jacobian, orientations, refutation,
-certificate, check.
+validity, completeness, certificate, check, cube, theorems.
 """
