@@ -1,6 +1,6 @@
 """Strict reading of one certificate: what is not exactly as specified is refused.
 
-A certificate is a JSON object, format "certify-pattern/1"; CHECKING.md specifies it field by field.
+A certificate is a JSON object, format "certify-pattern/1"; FORMAT.md specifies it key by key.
 Reading it establishes only that it is well formed. What it claims is decided in check.py.
 """
 
@@ -9,12 +9,11 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
-from hashlib import sha256
-from pathlib import Path
 from string import ascii_uppercase
 from typing import Any, TypeAlias
 
 from certify.kernel.chirotope import QUADRUPLES, Point
+from certify.kernel.evidence import Malformed, proof_file
 from certify.kernel.hexahedron import BOUNDARY_TYPES, VERTICES, Simplex
 from certify.kernel.refutation import FinalPolynomial
 
@@ -31,18 +30,12 @@ PATTERN_NAMES: tuple[str, ...] = tuple(
 )
 """The paper's 174 names 5_A .. 15_K, in order; after 11_Z comes 11_AA."""
 
-MAX_CERTIFICATE_BYTES = 1 << 20
-MAX_PROOF_BYTES = 1 << 24
 MAX_DIGITS = 40
 """Longest integer, and half the longest fraction: enough for honest points, too short to stall."""
 
 _QUADRUPLE = {"".join(map(str, quadruple)): quadruple for quadruple in QUADRUPLES}
 _DIGEST = re.compile(r"[0-9a-f]{64}")
 _FRACTION = re.compile(r"-?(0|[1-9][0-9]*)/[1-9][0-9]*")
-
-
-class Malformed(ValueError):
-    """The file is not a certificate; the message says in one line where it departs from one."""
 
 
 @dataclass(frozen=True)
@@ -80,15 +73,17 @@ class Certificate:
     answers: dict[str, Answer]
 
 
-def read_certificate(path: Path) -> Certificate:
-    """Read the certificate in a file, which bears the pattern's name, or raise Malformed."""
-    record = _object(_parse(read_file(path, MAX_CERTIFICATE_BYTES)), "the file")
+def read_certificate(pattern: str, content: bytes) -> Certificate:
+    """Return the certificate that a file named after the pattern holds, or raise Malformed."""
+    record = _object(_parse(content), "the file")
     _keys(record, ("format", "pattern", "boundary", "instances", "tetrahedra", *QUESTIONS))
     if record["format"] != FORMAT:
         raise Malformed(f'format is not "{FORMAT}"')
-    pattern = _text(record["pattern"], "pattern")
-    if pattern not in PATTERN_NAMES or path.name != f"{pattern}.json":
-        raise Malformed("pattern is not a pattern's name, or not that of the file")
+    name = _text(record["pattern"], "pattern")
+    if name not in PATTERN_NAMES:
+        raise Malformed("pattern is not one of the 174 names")
+    if name != pattern:
+        raise Malformed(f"pattern is {name}, but the file is named after {pattern}")
     boundary = _text(record["boundary"], "boundary")
     if boundary not in BOUNDARY_TYPES:
         raise Malformed("boundary is not one of the letters a to g")
@@ -99,51 +94,19 @@ def read_certificate(path: Path) -> Certificate:
     if not set(tetrahedra) <= set(QUADRUPLES) or list(tetrahedra) != sorted(set(tetrahedra)):
         raise Malformed("tetrahedra are not increasing quadruples of 1..8 in increasing order")
     return Certificate(
-        pattern=pattern,
+        pattern=name,
         boundary=boundary,
         instances=_integer(record["instances"], "instances"),
         tetrahedra=tetrahedra,
-        answers={question: _answer(record[question], pattern, question) for question in QUESTIONS},
+        answers={question: _answer(record[question], name, question) for question in QUESTIONS},
     )
-
-
-def read_proof(root: Path, name: str, digest: str | None = None) -> str:
-    """Return the text of a proof, given by its path below ``root``, or raise Malformed."""
-    path = root / name
-    try:
-        inside = path.resolve().parent == root.resolve() / "proofs"
-    except (OSError, RuntimeError):  # a circle of symbolic links
-        raise Malformed(f"{name} cannot be resolved") from None
-    if not inside:
-        raise Malformed(f"{name} is not in the folder of proofs")
-    content = read_file(path, MAX_PROOF_BYTES)
-    if digest is not None and sha256(content).hexdigest() != digest:
-        raise Malformed(f"{name} has not the stated sha256")
-    try:
-        return content.decode("ascii")
-    except UnicodeDecodeError:
-        raise Malformed(f"{name} is not ASCII text") from None
-
-
-def read_file(path: Path, limit: int) -> bytes:
-    """Return the content of a regular file of at most ``limit`` bytes, or raise Malformed."""
-    try:
-        if not path.is_file():
-            raise Malformed(f"{path.name} is missing or no regular file")
-        with path.open("rb") as file:
-            content = file.read(limit + 1)
-    except OSError as error:
-        raise Malformed(f"{path.name} cannot be read: {error.strerror}") from None
-    if len(content) > limit:
-        raise Malformed(f"{path.name} is larger than {limit} bytes")
-    return content
 
 
 def _parse(content: bytes) -> object:
     def unique(pairs: list[tuple[str, object]]) -> dict[str, object]:
         record = dict(pairs)
         if len(record) < len(pairs):
-            raise Malformed("a key occurs twice in one object")
+            raise Malformed("an object has the same key twice")
         return record
 
     def refuse(literal: str) -> object:
@@ -163,11 +126,11 @@ def _parse(content: bytes) -> object:
             parse_constant=refuse,
         )
     except UnicodeDecodeError:
-        raise Malformed("not UTF-8 text") from None
+        raise Malformed("the file is not UTF-8 text") from None
     except json.JSONDecodeError as error:
-        raise Malformed(f"not JSON: {error}") from None
+        raise Malformed(f"the file is not JSON: {error}") from None
     except RecursionError:
-        raise Malformed("nested too deeply") from None
+        raise Malformed("the file is nested too deeply") from None
 
 
 def _answer(value: object, pattern: str, question: str) -> Answer:
@@ -180,13 +143,13 @@ def _answer(value: object, pattern: str, question: str) -> Answer:
             _keys(record, ("answer", "points"))
             points = tuple(map(_point, _list(record["points"], "points")))
             if len(points) != len(VERTICES):
-                raise Malformed(f"{question}: there are not eight points")
+                raise Malformed(f"{question}: points has {len(points)} points instead of eight")
             return Yes(points)
         case "no":
             _keys(record, ("answer", "proof", "sha256"), optional=("final_polynomials",))
             proof = _text(record["proof"], "proof")
-            if proof != f"proofs/{pattern}.{question}.lrat":
-                raise Malformed(f"{question}: proof is not proofs/{pattern}.{question}.lrat")
+            if proof != proof_file(pattern, question):
+                raise Malformed(f"{question}: proof is not {proof_file(pattern, question)}")
             polynomials = _list(record.get("final_polynomials", []), "final_polynomials")
             digest = _text(record["sha256"], "sha256")
             if not _DIGEST.fullmatch(digest):
@@ -198,14 +161,14 @@ def _answer(value: object, pattern: str, question: str) -> Answer:
 def _point(value: object) -> Point:
     point = tuple(map(_coordinate, _list(value, "a point")))
     if len(point) != 3:
-        raise Malformed("a point has not three coordinates")
+        raise Malformed(f"a point has {len(point)} coordinates instead of three")
     return point
 
 
 def _coordinate(value: object) -> Fraction:
     if isinstance(value, str) and len(value) <= 2 * MAX_DIGITS and _FRACTION.fullmatch(value):
         return Fraction(value)
-    return Fraction(_integer(value, "a coordinate that is no fraction p/q"))
+    return Fraction(_integer(value, "a coordinate that is not a fraction p/q"))
 
 
 def _final_polynomial(value: object) -> FinalPolynomial:
@@ -221,7 +184,7 @@ def _final_polynomial(value: object) -> FinalPolynomial:
         multiplier, indices = _pair(row)
         six = tuple(_integer(v, "a vertex") for v in _list(indices, "the indices"))
         if len(six) != 6 or len(set(six)) != 6 or not set(six) <= set(VERTICES):
-            raise Malformed("an inequality has not six different vertices")
+            raise Malformed("an inequality does not have six different vertices")
         inequalities.append((_integer(multiplier, "a multiplier"), six))
     return FinalPolynomial(signs, tuple(inequalities))
 
@@ -263,4 +226,4 @@ def _keys(record: dict[str, Any], needed: Iterable[str], optional: Iterable[str]
             raise Malformed(f'"{key}" is missing')
     for key in record:
         if key not in (*needed, *optional):
-            raise Malformed(f"{key[:40]!a} does not belong here")
+            raise Malformed(f"unknown key {key[:40]!a}")

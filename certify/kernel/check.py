@@ -4,19 +4,19 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
+from typing import TypeAlias
 
-from certify.kernel.certificate import (
-    Answer,
-    Certificate,
-    Malformed,
-    No,
-    Yes,
-    read_certificate,
-    read_proof,
-)
+from certify.kernel.certificate import Answer, Certificate, No, Yes, read_certificate
 from certify.kernel.chirotope import Chirotope, Point, chirotope
 from certify.kernel.completeness import listed, triangulation_formula
 from certify.kernel.embedding import NotRealized, require_convex_position, require_realization
+from certify.kernel.evidence import (
+    Evidence,
+    Malformed,
+    certificate_file,
+    completeness_file,
+    proof_file,
+)
 from certify.kernel.hexahedron import BOUNDARY_TYPES, Simplex, boundary_letter
 from certify.kernel.jacobian import require_positive_jacobian
 from certify.kernel.orientations import Clause, convex_formula, realization_formula
@@ -30,33 +30,50 @@ from certify.kernel.triangulation import (
 )
 from certify.kernel.validity import valid_formula
 
+Tetrahedra: TypeAlias = tuple[Simplex, ...]
+
 
 @dataclass(frozen=True)
 class Verdict:
     """What one certificate proves; ``fault`` says why it was rejected, and is None if it was not.
 
-    boundary: the letter of its type; instances: its class, each a sorted tuple of tetrahedra;
-    answers: question -> "yes", "no" or "open".
+    certificate: what was read, None if the file is no certificate; boundary: the letter of its
+    type; instances: its class, each a sorted tuple of tetrahedra, empty unless the tetrahedra were
+    accepted; answers: question -> "yes", "no" or "open" as accepted, or "rejected"; files: path
+    below the root -> SHA-256, of all that was read.
     """
 
     pattern: str
     fault: str | None = None
+    certificate: Certificate | None = None
     boundary: str = ""
-    instances: frozenset[tuple[Simplex, ...]] = frozenset()
+    instances: frozenset[Tetrahedra] = frozenset()
     answers: dict[str, str] = field(default_factory=dict)
+    files: dict[str, str] = field(default_factory=dict)
 
     @property
     def size(self) -> int:
         """The number of tetrahedra of the pattern."""
         return int(self.pattern.partition("_")[0])
 
+    def rests_on(self, question: str) -> tuple[str, ...]:
+        """Return the files below the root on which the accepted answer to a question rests."""
+        proof = (proof_file(self.pattern, question),) if self.answers[question] == "no" else ()
+        return (certificate_file(self.pattern), *proof)
+
 
 @dataclass(frozen=True)
 class Completeness:
-    """Whether the accepted patterns are all that have a boundary of this type; if not, why."""
+    """That no triangulation with the representative boundary of a type is missing from a list.
+
+    listed: all triangulations with that boundary; fault: why this is not shown, None if it is;
+    files: path below the root -> SHA-256, of the proof.
+    """
 
     boundary: str
-    fault: str | None = None
+    listed: frozenset[Tetrahedra]
+    fault: str | None
+    files: dict[str, str] = field(default_factory=dict)
 
 
 FORMULAS = {
@@ -73,15 +90,22 @@ class Rejected(ValueError):
 
 def check_pattern(root: Path, pattern: str) -> Verdict:
     """Check the certificate of one pattern below ``root``; every failure becomes a verdict."""
+    evidence = Evidence(root)
     try:
-        certificate = read_certificate(root / "certificates" / f"{pattern}.json")
-        return check_certificate(certificate, root)
+        certificate = read_certificate(pattern, evidence.certificate(pattern))
+        return check_certificate(certificate, evidence)
     except (Malformed, Rejected) as error:
-        return Verdict(pattern, fault=f"certificates/{pattern}.json: {error}")
+        reason = str(error)
+    except Exception as error:  # whatever makes the check break off is not accepted
+        reason = ascii(error)
+    return Verdict(pattern, fault=f"{certificate_file(pattern)}: {reason}", files=evidence.files)
 
 
-def check_certificate(certificate: Certificate, root: Path) -> Verdict:
-    """Decide everything that a certificate claims, or raise Rejected or Malformed."""
+def check_certificate(certificate: Certificate, evidence: Evidence) -> Verdict:
+    """Decide everything that a certificate claims; raise Rejected if its tetrahedra are wrong.
+
+    Each answer is decided by itself: a wrong one spoils the certificate, but no other answer.
+    """
     tetrahedra = certificate.tetrahedra
     try:
         letter = boundary_letter(boundary_diagonals(tetrahedra))
@@ -90,24 +114,30 @@ def check_certificate(certificate: Certificate, root: Path) -> Verdict:
         raise Rejected(f"tetrahedra: {error}") from None
     instances = orbit(tetrahedra)
     claims = {
-        "pattern": (certificate.pattern.partition("_")[0], str(len(tetrahedra))),
+        "number of tetrahedra": (certificate.pattern.partition("_")[0], str(len(tetrahedra))),
         "boundary": (certificate.boundary, letter),
         "instances": (certificate.instances, len(instances)),
     }
-    for claim, (said, true) in claims.items():
-        if said != true:
-            raise Rejected(f"{claim}: {said} is said, {true} is true")
+    for claim, (stated, found) in claims.items():
+        if stated != found:
+            raise Rejected(f"{claim}: stated {stated}, but it is {found}")
     signs = orientation(tetrahedra)
-    answers = {}
+    answers, faults = {}, []
     for question, answer in certificate.answers.items():
         try:
-            answers[question] = check_answer(question, answer, signs, root)
+            answers[question] = check_answer(question, answer, signs, evidence)
         except (Malformed, NotRealized, NotRefuted) as error:
-            raise Rejected(f"{question}: {error}") from None
-    return Verdict(certificate.pattern, None, letter, instances, answers)
+            answers[question] = "rejected"
+            faults.append(f"{question}: {error}")
+    fault = f"{certificate_file(certificate.pattern)}: {'; '.join(faults)}" if faults else None
+    return Verdict(
+        certificate.pattern, fault, certificate, letter, instances, answers, evidence.files
+    )
 
 
-def check_answer(question: str, answer: Answer, signs: dict[Simplex, int], root: Path) -> str:
+def check_answer(
+    question: str, answer: Answer, signs: dict[Simplex, int], evidence: Evidence
+) -> str:
     """Return the accepted answer, or raise NotRealized, NotRefuted or Malformed."""
     if isinstance(answer, Yes):
         require_realization(signs, _chirotope(answer.points))
@@ -117,9 +147,8 @@ def check_answer(question: str, answer: Answer, signs: dict[Simplex, int], root:
             require_positive_jacobian(answer.points)
         return "yes"
     if isinstance(answer, No):
-        replay(
-            refuted_formula(question, answer, signs), read_proof(root, answer.proof, answer.digest)
-        )
+        proof = evidence.proof(answer.proof, answer.digest)
+        replay(refuted_formula(question, answer, signs), proof)
         return "no"
     return "open"
 
@@ -131,33 +160,33 @@ def refuted_formula(question: str, answer: No, signs: dict[Simplex, int]) -> tup
 
 def check_completeness(root: Path, letter: str, verdicts: Iterable[Verdict]) -> Completeness:
     """Replay the proof that no triangulation with this boundary is missing from the verdicts."""
-    name = completeness_proof(letter)
+    evidence = Evidence(root)
+    known = instances_bounded_by(letter, verdicts)
+    name = completeness_file(letter)
     try:
-        replay(completeness_formula(letter, verdicts), read_proof(root, name))
+        replay(completeness_formula(letter, known), evidence.proof(name))
+        return Completeness(letter, frozenset(known), None, evidence.files)
     except (Malformed, NotRefuted) as error:
-        return Completeness(letter, f"{name}: {error}")
-    return Completeness(letter)
+        reason = str(error)
+    except Exception as error:  # as above
+        reason = ascii(error)
+    return Completeness(letter, frozenset(), f"{name}: {reason}", evidence.files)
 
 
-def completeness_proof(letter: str) -> str:
-    """Return the path of the proof below the root."""
-    return f"proofs/complete.{letter}.lrat"
-
-
-def completeness_formula(letter: str, verdicts: Iterable[Verdict]) -> tuple[Clause, ...]:
-    """Return the clauses of a triangulation, with the type's boundary, that no verdict is about.
-
-    The accepted instances with exactly this boundary are listed in lexicographic order.
-    """
-    diagonals = BOUNDARY_TYPES[letter]
-    instances = sorted(
+def instances_bounded_by(letter: str, verdicts: Iterable[Verdict]) -> list[Tetrahedra]:
+    """Return the accepted triangulations whose boundary is the type's representative, sorted."""
+    return sorted(
         instance
         for verdict in verdicts
         if verdict.boundary == letter
         for instance in verdict.instances
-        if boundary_diagonals(instance) == diagonals
+        if boundary_diagonals(instance) == BOUNDARY_TYPES[letter]
     )
-    return (*triangulation_formula(diagonals), *map(listed, instances))
+
+
+def completeness_formula(letter: str, known: Iterable[Tetrahedra]) -> tuple[Clause, ...]:
+    """Return the clauses of a triangulation, with the representative boundary, not in the list."""
+    return (*triangulation_formula(BOUNDARY_TYPES[letter]), *map(listed, known))
 
 
 @lru_cache(maxsize=4)

@@ -24,9 +24,22 @@ from certify.kernel.hexahedron import VERTICES, Simplex
 Point: TypeAlias = tuple[Fraction, ...]
 Chirotope: TypeAlias = Mapping[Simplex, int]
 Circuit: TypeAlias = tuple[frozenset[int], frozenset[int]]
+Term: TypeAlias = tuple[tuple[int, ...], tuple[int, ...], int]
+"""Two brackets [p q r s] and a sign, which stand for the sign times the product of the two."""
 
 QUADRUPLES: tuple[Simplex, ...] = tuple(combinations(VERTICES, 4))
 QUINTUPLES: tuple[Simplex, ...] = tuple(combinations(VERTICES, 5))
+
+RELATIONS: tuple[tuple[Term, Term, Term], ...] = tuple(
+    (((*s, a, b), (*s, c, d), 1), ((*s, a, c), (*s, b, d), -1), ((*s, a, d), (*s, b, c), 1))
+    for s in combinations(VERTICES, 2)
+    for a, b, c, d in combinations([v for v in VERTICES if v not in s], 4)
+)
+"""The 420 three-term Grassmann-Pluecker relations: the three terms of each have the sum zero.
+
+[s a b][s c d] - [s a c][s b d] + [s a d][s b c] = 0 is an identity for six vectors of R^4, where s
+stands for two of them.
+"""
 
 
 def determinant(rows: Sequence[Sequence[int]]) -> int:

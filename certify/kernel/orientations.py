@@ -13,11 +13,11 @@ DIMACS; their order is part of the certificate format, since proofs refer to cla
 
 from collections.abc import Iterator, Mapping
 from functools import lru_cache
-from itertools import combinations, product
+from itertools import product
 from typing import TypeAlias
 
-from certify.kernel.chirotope import QUADRUPLES, QUINTUPLES, dependence
-from certify.kernel.hexahedron import VERTICES, Simplex, inversions, simplex
+from certify.kernel.chirotope import QUADRUPLES, QUINTUPLES, RELATIONS, dependence
+from certify.kernel.hexahedron import Simplex, sorted_with_sign
 
 Clause: TypeAlias = tuple[int, ...]
 
@@ -32,7 +32,8 @@ def has_sign(quadruple: Simplex, sign: int) -> int:
 
 def bracket(vertices: tuple[int, ...], sign: int) -> int:
     """Return the literal "the determinant of the vertices, in the order given, has this sign"."""
-    return has_sign(simplex(vertices), -sign if inversions(vertices) % 2 else sign)
+    quadruple, parity = sorted_with_sign(vertices)
+    return has_sign(quadruple, parity * sign)
 
 
 def exclusive() -> Iterator[Clause]:
@@ -44,28 +45,21 @@ def exclusive() -> Iterator[Clause]:
 def grassmann_pluecker() -> Iterator[Clause]:
     """Three-term Grassmann-Pluecker relations, for any signs, zero included.
 
-    [s a b][s c d] - [s a c][s b d] + [s a d][s b c] = 0 is an identity for six vectors of R^4
-    (s two of them). Hence if one of the three terms is positive, another one is negative, and
-    vice versa. "Term xy has sign e" is (x, y) having signs (e, 1) or (-e, -1); "term xy has not
+    The three terms have the sum zero. Hence if one of them is positive, another one is negative,
+    and vice versa. "Term xy has sign e" is (x, y) having signs (e, 1) or (-e, -1); "term xy has not
     sign -e" is implied by (x not -e and y not -1), and by (x not e and y not 1). One clause
     excludes one choice of these for a term of sign e and two terms without sign -e.
     """
-    for s in combinations(VERTICES, 2):
-        for a, b, c, d in combinations([v for v in VERTICES if v not in s], 4):
-            terms = (
-                ((*s, a, b), (*s, c, d), 1),
-                ((*s, a, c), (*s, b, d), -1),
-                ((*s, a, d), (*s, b, c), 1),
-            )
-            for sign in (1, -1):
-                for i, (x, y, e) in enumerate(terms):
-                    strict = [(-bracket(x, f * sign * e), -bracket(y, f)) for f in (1, -1)]
-                    weak = [
-                        [(bracket(x, -f * sign * e), bracket(y, -f)) for f in (1, -1)]
-                        for x, y, e in terms[:i] + terms[i + 1 :]
-                    ]
-                    for choice in product(strict, *weak):
-                        yield tuple(literal for pair in choice for literal in pair)
+    for terms in RELATIONS:
+        for sign in (1, -1):
+            for i, (x, y, e) in enumerate(terms):
+                strict = [(-bracket(x, f * sign * e), -bracket(y, f)) for f in (1, -1)]
+                weak = [
+                    [(bracket(x, -f * sign * e), bracket(y, -f)) for f in (1, -1)]
+                    for x, y, e in terms[:i] + terms[i + 1 :]
+                ]
+                for choice in product(strict, *weak):
+                    yield tuple(literal for pair in choice for literal in pair)
 
 
 def oriented(orientation: Mapping[Simplex, int]) -> Iterator[Clause]:

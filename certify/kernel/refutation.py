@@ -14,7 +14,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from certify.kernel.hexahedron import Simplex, inversions, simplex
+from certify.kernel.hexahedron import Simplex, simplex, sorted_with_sign
 from certify.kernel.orientations import Clause, has_sign
 
 _STEP = re.compile(
@@ -46,7 +46,7 @@ def replay(formula: Sequence[Clause], proof: str) -> int:
                     del clauses[hint]
                 continue
             if number <= last:
-                raise NotRefuted(f"clause number {number} is not above {last}")
+                raise NotRefuted(f"clause number {number} is not larger than {last}")
             _require_implied(clause, [clauses[hint] for hint in hints])
         except KeyError as error:
             raise NotRefuted(f"line {steps}: there is no clause {error.args[0]}") from None
@@ -63,8 +63,10 @@ def replay(formula: Sequence[Clause], proof: str) -> int:
 def _read_line(line: str) -> tuple[int, bool, Clause, Clause]:
     """Return (number, is it a deletion, literals, hints or numbers to delete) of one line."""
     match = _STEP.fullmatch(line)
+    if match is None and "-" in line.partition(" 0 ")[2] and not line.strip("-0123456789 "):
+        raise NotRefuted("a negative hint, as in a RAT step: only unit propagation is replayed")
     if match is None:
-        raise NotRefuted("not an LRAT step by unit propagation")
+        raise NotRefuted("not a step in the LRAT format")
     number, deletes, literals, hints = match.groups(default="")
     return int(number), bool(deletes), _numbers(literals), _numbers(hints)
 
@@ -81,7 +83,7 @@ def _require_implied(clause: Clause, hints: Sequence[Clause]) -> None:
         if not remaining:
             return
         if len(remaining) > 1:
-            raise NotRefuted(f"hint {position} is not unit")
+            raise NotRefuted(f"hint {position} has {len(remaining)} literals that are not false")
         false.add(-remaining[0])
     raise NotRefuted("the hints do not reach a contradiction")
 
@@ -140,12 +142,12 @@ def excluded_signs(polynomial: FinalPolynomial) -> Clause:
 
 def _product_sign(brackets: Sequence[tuple[int, ...]], signs: Mapping[Simplex, int]) -> int:
     """Return the sign of a product of brackets; one zero factor is enough for zero."""
-    factors = [signs.get(simplex(vertices)) for vertices in brackets]
-    if 0 in factors:
+    factors = [sorted_with_sign(vertices) for vertices in brackets]
+    if any(signs.get(quadruple) == 0 for quadruple, _ in factors):
         return 0
     result = 1
-    for vertices, factor in zip(brackets, factors, strict=True):
-        if factor is None:
-            raise NotRefuted(f"no sign is assumed for {simplex(vertices)}")
-        result *= factor * (-1) ** inversions(vertices)
+    for quadruple, parity in factors:
+        if quadruple not in signs:
+            raise NotRefuted(f"no sign is assumed for {quadruple}")
+        result *= parity * signs[quadruple]
     return result

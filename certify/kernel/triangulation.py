@@ -16,8 +16,8 @@ from certify.kernel.hexahedron import (
     Simplex,
     boundary_triangles,
     image,
-    inversions,
     simplex,
+    sorted_with_sign,
 )
 
 
@@ -54,7 +54,10 @@ def boundary_diagonals(tetrahedra: tuple[Simplex, ...]) -> frozenset[Simplex]:
             raise NotATriangulation(f"triangle {label(face)} lies in {times} tetrahedra")
     diagonals = _DIAGONALS_OF.get(frozenset(face for face in count if count[face] == 1))
     if diagonals is None:
-        raise NotATriangulation("the triangles in one tetrahedron are not the hexahedron's")
+        raise NotATriangulation(
+            "the triangles in exactly one tetrahedron do not form one of the 64 triangulated "
+            "boundaries"
+        )
     return diagonals
 
 
@@ -106,9 +109,8 @@ def orientation(tetrahedra: tuple[Simplex, ...]) -> dict[Simplex, int]:
     tetrahedra that share a triangle lie on opposite sides of it. The tetrahedra must triangulate
     the hexahedron: a ball is orientable, hence no tetrahedron gets two signs.
     """
-    pending = []
-    for face, seen in boundary_triangles(boundary_diagonals(tetrahedra)).items():
-        pending.append((face, (-1) ** inversions(seen)))
+    boundary = boundary_triangles(boundary_diagonals(tetrahedra))
+    pending = [sorted_with_sign(seen) for seen in boundary.values()]
     signs: dict[Simplex, int] = {}
     while pending:
         face, side = pending.pop()

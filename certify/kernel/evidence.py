@@ -1,0 +1,112 @@
+"""The files that a verdict rests on: each is read once, up to a limit, and its SHA-256 is kept.
+
+A root is a folder that holds certificates/ and proofs/. Files are named by their path below it.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from hashlib import sha256
+from pathlib import Path
+
+MAX_CERTIFICATE_BYTES = 1 << 20
+MAX_PROOF_BYTES = 1 << 24
+
+
+class Malformed(ValueError):
+    """A file is not what it should be; the message says in one line where it departs from it."""
+
+
+@dataclass
+class Evidence:
+    """The files below a root, as far as they have been read."""
+
+    root: Path
+    files: dict[str, str] = field(default_factory=dict)
+    """File -> the SHA-256 of what was read."""
+
+    def certificate(self, pattern: str) -> bytes:
+        """Return the content of a pattern's certificate, or raise Malformed."""
+        return self._read(certificate_file(pattern), MAX_CERTIFICATE_BYTES)
+
+    def proof(self, name: str, digest: str | None = None) -> str:
+        """Return the text of a proof, which must have the digest if one is given.
+
+        Raise Malformed if it has not, or is not ASCII text in a file of the folder of proofs.
+        """
+        path = self.root / name
+        try:
+            inside = path.resolve().parent == self.root.resolve() / "proofs"
+        except (OSError, RuntimeError):  # a circle of symbolic links
+            raise Malformed(f"{name} cannot be resolved") from None
+        if not inside:
+            raise Malformed(f"{name} is not in the folder of proofs")
+        content = self._read(name, MAX_PROOF_BYTES)
+        if digest not in (None, self.files[name]):
+            raise Malformed(f"the SHA-256 of {name} is not the one that the certificate states")
+        try:
+            return content.decode("ascii")
+        except UnicodeDecodeError:
+            raise Malformed(f"{name} is not ASCII text") from None
+
+    def _read(self, name: str, limit: int) -> bytes:
+        content = read_file(self.root / name, limit)
+        self.files[name] = sha256(content).hexdigest()
+        return content
+
+
+def read_file(path: Path, limit: int) -> bytes:
+    """Return the content of a regular file of at most ``limit`` bytes, or raise Malformed."""
+    try:
+        if not path.is_file():
+            raise Malformed(f"{path.name} is missing, or is not a regular file")
+        with path.open("rb") as file:
+            content = file.read(limit + 1)
+    except OSError as error:
+        raise Malformed(f"{path.name} cannot be read: {error.strerror}") from None
+    if len(content) > limit:
+        raise Malformed(f"{path.name} is larger than {limit} bytes")
+    return content
+
+
+def certificate_file(pattern: str) -> str:
+    """Return the path below the root of a pattern's certificate."""
+    return f"certificates/{pattern}.json"
+
+
+def proof_file(pattern: str, question: str) -> str:
+    """Return the path below the root of the proof of a no."""
+    return f"proofs/{pattern}.{question}.lrat"
+
+
+def completeness_file(letter: str) -> str:
+    """Return the path below the root of the proof that a type of boundary has no more patterns."""
+    return f"proofs/complete.{letter}.lrat"
+
+
+def strays(root: Path, patterns: tuple[str, ...]) -> list[str]:
+    """Return the names of the files among the certificates that are no pattern's, sorted."""
+    expected = {f"{pattern}.json" for pattern in patterns}
+    return sorted({path.name for path in (root / "certificates").glob("*.json")} - expected)
+
+
+def digest(files: Mapping[str, str]) -> str:
+    """Return one SHA-256 for many files, given by the SHA-256 of each.
+
+    It is that of the list which the command sha256sum prints of the files in the order of their
+    names, so that it can be computed without this program.
+    """
+    lines = "".join(f"{files[name]}  {name}\n" for name in sorted(files))
+    return sha256(lines.encode()).hexdigest()
+
+
+def kernel_digest() -> str:
+    """Return one SHA-256 for the modules of this package."""
+    here = Path(__file__).parent
+    return digest({p.name: sha256(p.read_bytes()).hexdigest() for p in here.glob("*.py")})
+
+
+def default_root() -> Path:
+    """Return the root that comes with the code: the installed package's data, or the checkout."""
+    package = Path(__file__).resolve().parents[1]
+    data = package / "data"
+    return data if data.is_dir() else package.parent

@@ -1,0 +1,50 @@
+"""Certificates on disk -> the kernel -> an outcome fit to print. Nothing here is trusted."""
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
+from pathlib import Path
+from signal import SIG_IGN, SIGINT, signal
+
+from certify.kernel.check import Verdict
+from certify.kernel.theorems import Outcome, check_all
+
+Progress = Callable[[int, int], object]
+"""Told how many of how many patterns have been checked."""
+
+
+def printable(text: str) -> str:
+    """Return the text with escapes for what could control a terminal or break a line."""
+    return "".join(char if char.isprintable() else ascii(char)[1:-1] for char in text)
+
+
+def run(root: Path, jobs: int = 1, progress: Progress | None = None) -> Outcome:
+    """Return the kernel's outcome for a root, from ``jobs`` processes.
+
+    Raises:
+        ChildProcessError: One of the processes was killed.
+    """
+
+    def apply(check: Callable[[str], Verdict], patterns: Sequence[str]) -> Iterator[Verdict]:
+        with _mapping(min(jobs, len(patterns))) as mapped:
+            for done, verdict in enumerate(mapped(check, patterns), start=1):
+                yield verdict
+                if progress:
+                    progress(done, len(patterns))
+
+    try:
+        return check_all(root, apply)
+    except BrokenProcessPool:
+        raise ChildProcessError("a process that checks certificates was killed") from None
+
+
+@contextmanager
+def _mapping(jobs: int) -> Iterator[Callable[..., Iterable[Verdict]]]:
+    """Give the built-in ``map``, or that of a pool of processes."""
+    if jobs == 1:
+        yield map
+        return
+    # An interrupt is for the parent, which then stops the others.
+    with ProcessPoolExecutor(jobs, initializer=signal, initargs=(SIGINT, SIG_IGN)) as pool:
+        yield pool.map
