@@ -4,9 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from certify.kernel.certificate import PATTERN_NAMES, Certificate, read_certificate
-from certify.kernel.check import Completeness, Verdict, check_completeness, check_pattern
-from certify.kernel.hexahedron import BOUNDARY_TYPES
+from certify.kernel.certificate import Certificate
+from certify.kernel.check import Completeness, Verdict
+from certify.kernel.theorems import Outcome, check_all
 
 
 @pytest.fixture(scope="session")
@@ -16,19 +16,24 @@ def shipped() -> Path:
 
 
 @pytest.fixture(scope="session")
-def certificates(shipped: Path) -> dict[str, Certificate]:
-    """Return every certificate as it is read, by pattern."""
-    folder = shipped / "certificates"
-    return {name: read_certificate(folder / f"{name}.json") for name in PATTERN_NAMES}
+def outcome(shipped: Path) -> Outcome:
+    """Return what the kernel finds when it checks everything."""
+    return check_all(shipped)
 
 
 @pytest.fixture(scope="session")
-def verdicts(shipped: Path) -> dict[str, Verdict]:
+def verdicts(outcome: Outcome) -> dict[str, Verdict]:
     """Return the kernel's verdict on every certificate, by pattern."""
-    return {name: check_pattern(shipped, name) for name in PATTERN_NAMES}
+    return {verdict.pattern: verdict for verdict in outcome.verdicts}
 
 
 @pytest.fixture(scope="session")
-def completeness(shipped: Path, verdicts: dict[str, Verdict]) -> list[Completeness]:
+def certificates(verdicts: dict[str, Verdict]) -> dict[str, Certificate]:
+    """Return every certificate as it is read, by pattern."""
+    return {name: v.certificate for name, v in verdicts.items() if v.certificate}
+
+
+@pytest.fixture(scope="session")
+def completeness(outcome: Outcome) -> list[Completeness]:
     """Return the kernel's verdict on every proof that no pattern is missing."""
-    return [check_completeness(shipped, letter, verdicts.values()) for letter in BOUNDARY_TYPES]
+    return list(outcome.completeness)

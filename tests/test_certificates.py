@@ -16,13 +16,13 @@ from certify.kernel.certificate import (
     PATTERN_NAMES,
     Answer,
     Certificate,
-    Malformed,
     No,
     Open,
     Yes,
 )
 from certify.kernel.check import Rejected, Verdict, check_certificate
 from certify.kernel.chirotope import Point
+from certify.kernel.evidence import Evidence, certificate_file
 from certify.kernel.hexahedron import BOUNDARY_TYPES, Simplex
 from certify.kernel.refutation import FinalPolynomial
 from certify.kernel.triangulation import orientation
@@ -66,10 +66,13 @@ def answering(certificate: Certificate, question: str, answer: Answer) -> Certif
 def fault(certificate: Certificate, root: Path) -> str:
     """Return why the certificate is rejected."""
     try:
-        verdict = check_certificate(certificate, root)
-    except (Malformed, Rejected) as error:
+        verdict = check_certificate(certificate, Evidence(root))
+    except Rejected as error:
         return str(error)
-    return f"nothing is wrong with {verdict.pattern}"
+    if verdict.fault is None:
+        return f"nothing is wrong with {verdict.pattern}"
+    assert "rejected" in verdict.answers.values()
+    return verdict.fault.removeprefix(f"{certificate_file(certificate.pattern)}: ")
 
 
 def yeses(certificate: Certificate) -> Iterator[tuple[str, Points]]:
@@ -251,7 +254,7 @@ def test_proofs_have_their_digest(shipped: Path, refuted: list[Refuted]) -> None
     for certificate, question, answer, _ in refuted:
         wrong = replace(answer, digest=sha256(answer.digest.encode()).hexdigest())
         found = fault(answering(certificate, question, wrong), shipped)
-        assert found == f"{question}: {answer.proof} has not the stated sha256"
+        assert found.startswith(f"{question}: the SHA-256 of {answer.proof} is not the one")
 
 
 def without(items: Sequence[T], k: int) -> tuple[T, ...]:
@@ -343,10 +346,10 @@ def test_false_claims_are_rejected(shipped: Path, certificates: Certificates, na
     size = len(certificate.tetrahedra)
     for letter in BOUNDARY_TYPES.keys() - {certificate.boundary}:
         found = fault(replace(certificate, boundary=letter), shipped)
-        assert found == f"boundary: {letter} is said, {certificate.boundary} is true"
+        assert found == f"boundary: stated {letter}, but it is {certificate.boundary}"
     for number in {0, 1, 2, 24, 48, -certificate.instances} - {certificate.instances}:
         found = fault(replace(certificate, instances=number), shipped)
-        assert found == f"instances: {number} is said, {certificate.instances} is true"
+        assert found == f"instances: stated {number}, but it is {certificate.instances}"
     for other in PATTERN_COUNTS.keys() - {size}:
         found = fault(replace(certificate, pattern=f"{other}_A"), shipped)
-        assert found == f"pattern: {other} is said, {size} is true"
+        assert found == f"number of tetrahedra: stated {other}, but it is {size}"

@@ -15,7 +15,7 @@ from certify.kernel.check import (
     Verdict,
     check_completeness,
     completeness_formula,
-    completeness_proof,
+    instances_bounded_by,
 )
 from certify.kernel.completeness import (
     INNER,
@@ -26,6 +26,7 @@ from certify.kernel.completeness import (
     triangulation_formula,
     vertex_clauses,
 )
+from certify.kernel.evidence import completeness_file
 from certify.kernel.hexahedron import BOUNDARY_TYPES, FACETS, Simplex, boundary_triangles
 from certify.kernel.orientations import Clause
 from certify.kernel.triangulation import boundary_diagonals
@@ -239,14 +240,18 @@ def test_counter_counts(size: int) -> None:
 
 
 @every_boundary
-def test_completeness_is_accepted(letter: str, completeness: list[Completeness]) -> None:
-    assert Completeness(letter) in completeness
+def test_completeness_is_accepted(
+    letter: str, verdicts: Verdicts, completeness: list[Completeness]
+) -> None:
+    (found,) = (found for found in completeness if found.boundary == letter)
+    assert found.fault is None
+    assert found.listed == with_boundary(letter, verdicts)
 
 
 @every_boundary
 def test_no_instance_is_superfluous(letter: str, verdicts: Verdicts) -> None:
     """Without the clause of any one of them, the formula has a model: that one."""
-    formula = completeness_formula(letter, verdicts.values())
+    formula = completeness_formula(letter, instances_bounded_by(letter, verdicts.values()))
     common = len(triangulation_formula(BOUNDARY_TYPES[letter]))
     assert len(formula) == common + len(with_boundary(letter, verdicts))
     with Solver("glucose4", bootstrap_with=formula[:common]) as solver:
@@ -258,7 +263,8 @@ def is_rejected(root: Path, letter: str, verdicts: Iterable[Verdict]) -> bool:
     """Is the proof rejected, with its name?"""
     found = check_completeness(root, letter, verdicts)
     assert found.boundary == letter
-    assert found.fault is None or found.fault.startswith(f"{completeness_proof(letter)}: ")
+    assert (found.fault is None) == bool(found.listed)
+    assert found.fault is None or found.fault.startswith(f"{completeness_file(letter)}: ")
     return found.fault is not None
 
 
@@ -285,8 +291,8 @@ def test_the_proof_of_another_boundary_is_rejected(
 ) -> None:
     (tmp_path / "proofs").mkdir()
     for other in BOUNDARY_TYPES.keys() - {letter}:
-        content = (shipped / completeness_proof(other)).read_bytes()
-        (tmp_path / completeness_proof(letter)).write_bytes(content)
+        content = (shipped / completeness_file(other)).read_bytes()
+        (tmp_path / completeness_file(letter)).write_bytes(content)
         assert is_rejected(tmp_path, letter, verdicts.values())
 
 
@@ -295,7 +301,7 @@ def test_a_proof_that_is_missing_or_cut_short_is_rejected(
     tmp_path: Path, shipped: Path, letter: str, verdicts: Verdicts
 ) -> None:
     copytree(shipped / "proofs", tmp_path / "proofs")
-    path = tmp_path / completeness_proof(letter)
+    path = tmp_path / completeness_file(letter)
     lines = path.read_text().splitlines(keepends=True)
     for rest in (lines[:-1], lines[1:], [], [*lines[:-1], "\u00e9"]):
         path.write_text("".join(rest))

@@ -17,9 +17,10 @@ from certify.kernel.certificate import QUESTIONS, Certificate, No
 from certify.kernel.check import (
     Verdict,
     completeness_formula,
-    completeness_proof,
+    instances_bounded_by,
     refuted_formula,
 )
+from certify.kernel.evidence import completeness_file
 from certify.kernel.hexahedron import BOUNDARY_TYPES
 from certify.kernel.orientations import Clause
 from certify.kernel.triangulation import orientation
@@ -75,7 +76,9 @@ def completions(shipped: Path, verdicts: dict[str, Verdict]) -> dict[str, Proved
     """Return the proofs that no pattern is missing, by boundary type."""
     return {
         letter: read(
-            shipped, completeness_proof(letter), completeness_formula(letter, verdicts.values())
+            shipped,
+            completeness_file(letter),
+            completeness_formula(letter, instances_bounded_by(letter, verdicts.values())),
         )
         for letter in BOUNDARY_TYPES
     }

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from certify.kernel.certificate import Certificate, Yes
 from certify.kernel.chirotope import Point
-from certify.quality import DEPTH, jacobian_lower_bound, scaled_jacobians
+from certify.mesh.quality import DEPTH, jacobian_lower_bound, scaled_jacobians
 from tests.geometry import CUBE, PLACEMENTS, Placement, exact, examples, leibniz, near
 
 Points = tuple[Point, ...]

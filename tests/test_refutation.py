@@ -169,9 +169,9 @@ def test_square_is_refuted(proof: str, steps: int) -> None:
 @pytest.mark.parametrize(
     ("proof", "why"),
     [
-        ("", "line 1: not an LRAT step by unit propagation"),
+        ("", "line 1: not a step in the LRAT format"),
         ("5 2 0 1 2 0\n6 0 5 3 4 0\n\n", "line 3: the proof goes on after the empty clause"),
-        ("5 2 0 1 2 0\x0c6 0 5 3 4 0", "line 1: not an LRAT step by unit propagation"),
+        ("5 2 0 1 2 0\x0c6 0 5 3 4 0", "line 1: not a step in the LRAT format"),
         ("5 2 0 1 2 0", "the proof ends without the empty clause"),
         ("5 2 0 1 9 0", "line 1: there is no clause 9"),
         ("5 0 5 0", "line 1: there is no clause 5"),
@@ -180,14 +180,14 @@ def test_square_is_refuted(proof: str, steps: int) -> None:
         ("5 d 1 1 0", "line 1: there is no clause 1"),
         ("5 2 0 1 2 0\n5 d 5 0\n6 0 5 3 4 0", "line 3: there is no clause 5"),
         ("5 d 1 0\n5 2 0 1 2 0", "line 2: there is no clause 1"),
-        ("5 0 1 2 0", "line 1: hint 1 is not unit"),
-        ("5 2 0 1 2 0\n6 0 5 1 3 0", "line 2: hint 2 is not unit"),
-        ("5 3 0 1 2 0", "line 1: hint 1 is not unit"),
+        ("5 0 1 2 0", "line 1: hint 1 has 2 literals that are not false"),
+        ("5 2 0 1 2 0\n6 0 5 1 3 0", "line 2: hint 2 has 2 literals that are not false"),
+        ("5 3 0 1 2 0", "line 1: hint 1 has 2 literals that are not false"),
         ("5 2 0 1 0", "line 1: the hints do not reach a contradiction"),
         ("5 2 0 0", "line 1: the hints do not reach a contradiction"),
-        ("4 2 0 1 2 0", "line 1: clause number 4 is not above 4"),
-        ("5 2 0 1 2 0\n5 0 5 3 4 0", "line 2: clause number 5 is not above 5"),
-        ("7 2 0 1 2 0\n6 0 7 3 4 0", "line 2: clause number 6 is not above 7"),
+        ("4 2 0 1 2 0", "line 1: clause number 4 is not larger than 4"),
+        ("5 2 0 1 2 0\n5 0 5 3 4 0", "line 2: clause number 5 is not larger than 5"),
+        ("7 2 0 1 2 0\n6 0 7 3 4 0", "line 2: clause number 6 is not larger than 7"),
     ],
 )
 def test_reason(proof: str, why: str) -> None:
@@ -204,7 +204,6 @@ def test_reason(proof: str, why: str) -> None:
         "5 2 1 2 0",
         "5 2 0 1 2 0 0",
         "5 2 0 1 0 2 0",
-        "5 2 0 -1 2 0",
         "5 2 0 1 2 0 ",
         " 5 2 0 1 2 0",
         "5  2 0 1 2 0",
@@ -231,7 +230,13 @@ def test_reason(proof: str, why: str) -> None:
     ],
 )
 def test_malformed_line(step: str) -> None:
-    assert reason(SQUARE, f"{step}\n{PROOF}") == "line 1: not an LRAT step by unit propagation"
+    assert reason(SQUARE, f"{step}\n{PROOF}") == "line 1: not a step in the LRAT format"
+
+
+@pytest.mark.parametrize("step", ["5 2 0 -1 2 0", "5 2 0 1 -2 3 0", "5 0 -1 0"])
+def test_rat_steps_are_told_apart(step: str) -> None:
+    why = "line 1: a negative hint, as in a RAT step: only unit propagation is replayed"
+    assert reason(SQUARE, step) == why
 
 
 # Final polynomials.

@@ -9,6 +9,7 @@ from functools import cached_property
 from itertools import combinations, product
 from pathlib import Path
 from random import Random
+from shutil import copytree
 from typing import Any
 
 import pytest
@@ -16,7 +17,8 @@ import pytest
 from certify.kernel.certificate import PATTERN_NAMES, QUESTIONS
 from certify.kernel.check import Completeness, Verdict
 from certify.kernel.cube import TETRAHEDRON_TYPES, triangulates_cube
-from certify.kernel.theorems import Theorem, theorems
+from certify.kernel.evidence import certificate_file, completeness_file, proof_file
+from certify.kernel.theorems import Theorem, check_all, theorems
 from certify.kernel.triangulation import orientation
 from tests.geometry import (
     CUBE,
@@ -74,7 +76,62 @@ def test_shipped_certificates_show(proved: dict[str, Theorem], name: str) -> Non
 
 def test_theorems_rest_on_existing_files(shipped: Path, proved: dict[str, Theorem]) -> None:
     for theorem in proved.values():
-        assert all(list(shipped.glob(pattern)) for pattern in theorem.rests_on)
+        assert len(set(theorem.rests_on)) == len(theorem.rests_on)
+        assert all((shipped / file).is_file() for file in theorem.rests_on)
+
+
+CERTIFICATES = [*map(certificate_file, PATTERN_NAMES)]
+COMPLETENESS = [*map(completeness_file, "abcdefg")]
+QUESTIONS_OF = {
+    "realizable": ["realizable"],
+    "realizable-sizes": ["realizable"],
+    "convex": ["realizable", "convex"],
+    "valid": ["valid"],
+    "not-valid": [*QUESTIONS],
+    "valid-sizes": ["valid"],
+}
+
+
+@every_theorem_about_patterns
+def test_rests_on_is_exact(
+    proved: dict[str, Theorem], verdicts: Verdicts, completeness: list[Completeness], name: str
+) -> None:
+    """All it names is needed: without any one file the theorem is not shown. Nothing else is."""
+    refutations = [
+        proof_file(pattern, question)
+        for question in QUESTIONS_OF.get(name, [])
+        for pattern in PATTERN_NAMES
+        if verdicts[pattern].answers[question] == "no"
+    ]
+    assert sorted(proved[name].rests_on) == sorted([*CERTIFICATES, *COMPLETENESS, *refutations])
+
+
+@pytest.mark.parametrize("proof", ["15_A.realizable", "15_G.convex", "15_K.valid", "complete.c"])
+def test_a_spoiled_proof_spoils_what_rests_on_it_alone(
+    shipped: Path, tmp_path: Path, proof: str
+) -> None:
+    for folder in ("certificates", "proofs"):
+        copytree(shipped / folder, tmp_path / folder)
+    (tmp_path / "proofs" / f"{proof}.lrat").write_text("1 0 0\n")
+    outcome = check_all(tmp_path)
+    assert len(outcome.faults) == 1
+    assert f"proofs/{proof}.lrat" in outcome.faults[0]
+    for theorem, before in zip(outcome.theorems, check_all(shipped).theorems, strict=True):
+        assert theorem.ok == (f"proofs/{proof}.lrat" not in before.rests_on)
+
+
+@pytest.mark.parametrize(
+    ("pattern", "question", "files"),
+    [
+        ("15_A", "realizable", ["certificates/15_A.json", "proofs/15_A.realizable.lrat"]),
+        ("8_E", "valid", ["certificates/8_E.json"]),
+    ],
+)
+def test_an_answer_rests_on_its_certificate_and_its_proof(
+    verdicts: Verdicts, pattern: str, question: str, files: list[str]
+) -> None:
+    assert [*verdicts[pattern].rests_on(question)] == files
+    assert set(files) <= verdicts[pattern].files.keys()
 
 
 def test_nothing_shows_the_theorems_of_the_template_only() -> None:
@@ -106,10 +163,22 @@ def test_no_theorem_about_patterns_unless_complete_for(
     verdicts: Verdicts, completeness: list[Completeness], letter: str
 ) -> None:
     others = [found for found in completeness if found.boundary != letter]
-    faulty = Completeness(letter, "spoiled")
+    (own,) = (found for found in completeness if found.boundary == letter)
     assert shown(verdicts, others) == set(OF_THE_TEMPLATE)
-    assert shown(verdicts, [*others, faulty]) == set(OF_THE_TEMPLATE)
-    assert shown(verdicts, [*others, Completeness(letter)]) == set(ALL)
+    assert shown(verdicts, [*others, replace(own, fault="spoiled")]) == set(OF_THE_TEMPLATE)
+    assert shown(verdicts, [*others, own]) == set(ALL)
+
+
+@pytest.mark.parametrize("letter", "abcdefg")
+def test_completeness_counts_only_for_what_it_lists(
+    verdicts: Verdicts, completeness: list[Completeness], letter: str
+) -> None:
+    """A proof about a list with a triangulation that no verdict has accepted shows nothing."""
+    others = [found for found in completeness if found.boundary != letter]
+    (own,) = (found for found in completeness if found.boundary == letter)
+    foreign = ((1, 2, 3, 4),)
+    wider = replace(own, listed=own.listed | {foreign})
+    assert shown(verdicts, [*others, wider]) == set(OF_THE_TEMPLATE)
 
 
 def answering(verdicts: Verdicts, name: str, question: str, answer: str) -> Verdicts:
@@ -272,11 +341,13 @@ COUNTED: dict[str, Callable[[Shipped], list[object]]] = {
     "boundaries": lambda _: [64, 7, *boundary_classes()],
     "tetrahedra": lambda _: [*type_counts()],
     "patterns": lambda said: [len(said.records), len(cube_symmetries())],
-    "sizes": lambda said: [*said.row([*said.records]), 5, 6, 15],
+    "sizes": lambda said: [len(said.records), *said.row([*said.records]), 5, 6, 15],
     "letters": lambda said: [
-        *(sum(r["boundary"] == letter for r in said.records.values()) for letter in "abcdefg")
+        len(said.records),
+        *(sum(r["boundary"] == letter for r in said.records.values()) for letter in "abcdefg"),
     ],
     "instances": lambda said: [
+        len(said.records),
         *sorted(set(said.classes.values())),
         sum(said.classes.values()),
     ],
@@ -291,6 +362,7 @@ COUNTED: dict[str, Callable[[Shipped], list[object]]] = {
         *said.filling(slivers=True),
     ],
     "ten": lambda said: [
+        len(said.records),
         7,
         *(
             name
@@ -301,14 +373,20 @@ COUNTED: dict[str, Callable[[Shipped], list[object]]] = {
     ],
     "realizable": lambda said: [
         len(said.answering("realizable", "yes")),
+        len(said.records),
         *said.answering("realizable", "no"),
     ],
-    "realizable-sizes": lambda said: [*said.row(said.answering("realizable", "yes")), 5, 6, 15],
+    "realizable-sizes": lambda said: [
+        len(said.answering("realizable", "yes")),
+        *said.row(said.answering("realizable", "yes")),
+        *(5, 6, 15),
+    ],
     "convex": lambda said: [
         len(said.answering("convex", "yes")),
+        len(said.records),
         len(set(said.answering("convex", "no")) & set(said.answering("realizable", "yes"))),
     ],
-    "valid": lambda said: [len(said.answering("valid", "yes"))],
+    "valid": lambda said: [len(said.answering("valid", "yes")), len(said.records)],
     "not-valid": lambda said: [
         len(invalid := set(said.answering("valid", "no"))),
         len(invalid & set(said.answering("realizable", "no"))),

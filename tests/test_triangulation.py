@@ -201,11 +201,11 @@ def test_oriented_tetrahedra_have_the_oriented_hexahedron_as_boundary() -> None:
         ("1236 1348 1368 1568 3678 2367", "2367 is a boundary tetrahedron"),
         ("1235 1236 1238", "triangle 123 lies in 3 tetrahedra"),
         ("1236 1236 1348 1368 1568 3678", "triangle 136 lies in 3 tetrahedra"),
-        ("1236 1236 1348 1568 3678", "not the hexahedron's"),
-        ("1236 1348 1368 1568", "not the hexahedron's"),
-        ("1236 1348 1568 3678", "not the hexahedron's"),
-        ("1245 1247 1257 1457 2457", "not the hexahedron's"),
-        ("", "not the hexahedron's"),
+        ("1236 1236 1348 1568 3678", "do not form one of the 64"),
+        ("1236 1348 1368 1568", "do not form one of the 64"),
+        ("1236 1348 1568 3678", "do not form one of the 64"),
+        ("1245 1247 1257 1457 2457", "do not form one of the 64"),
+        ("", "do not form one of the 64"),
     ],
 )
 def test_boundary_is_refused(tetrahedra: str, reason: str) -> None:

@@ -1,4 +1,4 @@
-"""How good is a valid hexahedron? For the engineer; no verdict depends on it."""
+"""How good is a valid hexahedron? No verdict depends on it."""
 
 from collections.abc import Sequence
 from fractions import Fraction
@@ -41,6 +41,9 @@ def scaled_jacobians(points: Sequence[Point]) -> list[float]:
             ]
             for axis in range(3)
         ]
-        lengths = prod(sqrt(sum(x * x for x in edge)) for edge in edges)
-        result.append((-1) ** sum(corner) * determinant(edges) / lengths if lengths else 0.0)
+        value = (-1) ** sum(corner) * determinant(edges)
+        squares = prod(sum(x * x for x in edge) for edge in edges)
+        # The square is at most 1, so it fits into a float however large the integers are.
+        square = float(Fraction(value**2, squares)) if squares else 0.0
+        result.append(((value > 0) - (value < 0)) * sqrt(square))
     return result

@@ -1,0 +1,81 @@
+"""The command line: parse, call, print. What is true is decided in certify/kernel alone.
+
+One module for each group of commands: :mod:`checking`, :mod:`evidence`, :mod:`auditing`,
+:mod:`building`; what they share is in :mod:`common`.
+"""
+
+import sys
+from typing import Any
+
+import click
+
+from certify import __version__
+from certify.cli import auditing, building, checking, evidence
+from certify.cli.common import fail
+
+__all__ = ["cli", "main"]
+
+
+class _Commands(click.Group):
+    """Commands that end with one line on standard error when they cannot go on."""
+
+    def main(self, *args: Any, **kwargs: Any) -> Any:
+        """Run a command, and exit."""
+        kwargs["standalone_mode"] = False
+        try:
+            code = super().main(*args, **kwargs)
+        except click.UsageError as error:
+            command = error.ctx.command_path if error.ctx else "certify"
+            fail(f"{error.format_message()} See '{command} --help'.", code=2)
+        except click.ClickException as error:
+            fail(error.format_message(), code=error.exit_code)
+        except (click.Abort, KeyboardInterrupt):
+            fail("interrupted", code=130)
+        except OSError as error:
+            fail(str(error), code=2)
+        sys.exit(code if isinstance(code, int) else 0)
+
+    def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002 - click passes it
+        """Return the commands in the order of their registration, from common to rare."""
+        return list(self.commands)
+
+
+@click.group(
+    cls=_Commands,
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 80},
+    epilog="""\b
+    Examples:
+      certify check-all            replay everything
+      certify show 8_E             one pattern, with its evidence
+      certify audit --only corrected
+    """,
+)
+@click.version_option(__version__, "-V", "--version", message="certify %(version)s")
+def cli() -> None:
+    """Exact audit of the 174 subdivisions of the hexahedron into tetrahedra.
+
+    Exit code 0: all is accepted. 1: something was rejected. 2: usage error. 130: interrupted.
+    """
+
+
+for command in (
+    checking.check_all,
+    checking.check,
+    evidence.show,
+    evidence.list_,
+    auditing.audit,
+    evidence.export,
+    checking.replay,
+    auditing.spheres,
+    building.build,
+    building.completion,
+):
+    cli.add_command(command)
+
+
+def main() -> None:
+    """Run the command line; whatever a terminal cannot show is written as an escape."""
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="backslashreplace")
+    cli(prog_name="certify")

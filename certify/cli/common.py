@@ -1,0 +1,207 @@
+"""What the commands share: options, the root, errors of one line, and ways to print."""
+
+# ruff: noqa: PLC0415 - the kernel (with it sympy) and rich are imported where they are needed
+
+from __future__ import annotations
+
+import shutil
+import sys
+import textwrap
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NoReturn
+
+import click
+
+if TYPE_CHECKING:
+    from certify.kernel.check import Verdict
+
+root_option = click.option(
+    "--root",
+    type=click.Path(path_type=Path),
+    metavar="DIR",
+    help="Folder with certificates/ and proofs/; by default those that come with certify.",
+)
+json_option = click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+
+
+def _at_least_one(_context: click.Context, _parameter: click.Parameter, value: int) -> int:
+    if value < 1:
+        raise click.BadParameter("there must be at least one process.")
+    return value
+
+
+jobs_option = click.option(
+    "-j",
+    "--jobs",
+    type=int,
+    default=1,
+    metavar="N",
+    callback=_at_least_one,
+    help="Number of processes (default 1).",
+)
+
+
+def examples(*lines: str) -> str:
+    """Return the end of a help page: examples, a line each."""
+    return "\n".join(
+        ("\b", "Example:" if len(lines) == 1 else "Examples:", *(f"  {line}" for line in lines))
+    )
+
+
+class PatternName(click.ParamType[str]):
+    """One of the 174 names, completed by the shell."""
+
+    name = "pattern"
+
+    def convert(self, value: str, *_: object) -> str:
+        """Return the name if it is one."""
+        from certify.kernel.certificate import PATTERN_NAMES
+        from certify.run import printable
+
+        if value not in PATTERN_NAMES:
+            fail(f"unknown pattern {printable(value)}; see 'certify list'", code=2)
+        return value
+
+    def shell_complete(
+        self,
+        ctx: click.Context,  # noqa: ARG002
+        param: click.Parameter,  # noqa: ARG002
+        incomplete: str,
+    ) -> list[click.shell_completion.CompletionItem]:
+        """Return the names that begin so."""
+        from certify.kernel.certificate import PATTERN_NAMES
+
+        names = [name for name in PATTERN_NAMES if name.startswith(incomplete)]
+        return list(map(click.shell_completion.CompletionItem, names))
+
+
+def fail(message: str, code: int) -> NoReturn:
+    """Print one line on standard error, and exit."""
+    from certify.run import printable
+
+    click.echo(f"certify: {printable(message)}", err=True)
+    sys.exit(code)
+
+
+def exit_with(ok: bool) -> None:
+    """Exit with code 1 unless all is well."""
+    if not ok:
+        sys.exit(1)
+
+
+def existing_root(root: Path | None) -> Path:
+    """Return the folder that was asked for, or the default, if it has certificates."""
+    from certify.kernel.evidence import default_root
+
+    folder = default_root() if root is None else root
+    if not folder.is_dir():
+        fail(f"{folder} is not a folder", code=2)
+    if not (folder / "certificates").is_dir():
+        fail(f"{folder} has no folder certificates", code=2)
+    return folder
+
+
+@contextmanager
+def needing(extra: str) -> Iterator[None]:
+    """Say how to install the libraries that an import in this block lacks."""
+    try:
+        yield
+    except ImportError as error:
+        if error.name is None or error.name.partition(".")[0] == "certify":
+            raise
+        fail(
+            f"{error.name} is not installed: run pip install '.[{extra}]' in a checkout, "
+            f"or pip install 'certify[{extra}]' where certify is on a package index",
+            code=2,
+        )
+
+
+def print_json(record: dict[str, Any]) -> None:
+    """Print an object as JSON."""
+    from certify.report import json_text
+
+    click.echo(json_text(record))
+
+
+def print_wrapped(text: str, indent: str = "", hanging: str = "    ") -> None:
+    """Print a paragraph, wrapped to the terminal, or to 80 columns where there is none."""
+    click.echo(
+        textwrap.fill(
+            text,
+            width=columns(),
+            initial_indent=indent,
+            subsequent_indent=indent + hanging,
+            break_on_hyphens=False,
+            break_long_words=False,
+        )
+    )
+
+
+def columns() -> int:
+    """Return how wide printed paragraphs are: at most 100 columns."""
+    if not sys.stdout.isatty():
+        return 80
+    return max(40, min(shutil.get_terminal_size().columns, 100))
+
+
+def verdict_line(verdict: Verdict) -> str:
+    """Return a verdict in one line."""
+    if verdict.fault is not None:
+        return f"rejected: {verdict.fault}"
+    answers = ", ".join(f"{question} {answer}" for question, answer in verdict.answers.items())
+    return f"{verdict.pattern}: {answers}"
+
+
+@contextmanager
+def progress(what: str) -> Iterator[Callable[[int, int], None]]:
+    """Give a function to be told "so many of so many"; it shows one live line on a terminal."""
+    if not sys.stderr.isatty():
+        yield lambda _done, _total: None
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(bar_width=30),
+        MofNCompleteColumn(),
+        TextColumn("{task.fields[rate]}"),
+        TimeElapsedColumn(),
+    )
+    # Without auto_refresh there is no second thread when the checking processes are forked.
+    with Progress(
+        *columns, console=Console(stderr=True), transient=True, auto_refresh=False
+    ) as live:
+        task = live.add_task(what, total=None, rate="")
+
+        def show(done: int, total: int) -> None:
+            elapsed = live.tasks[0].elapsed or 0
+            rate = f"{done / elapsed:.0f}/s" if elapsed and done > elapsed else ""
+            live.update(task, completed=done, total=total, rate=rate, refresh=True)
+
+        yield show
+
+
+def print_table(headings: Sequence[str], rows: Iterable[Sequence[object]], title: str = "") -> None:
+    """Print a table, its first column left- and the others right-justified, and an empty line."""
+    from rich import box
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table(title=title or None, title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
+    for index, heading in enumerate(headings):
+        table.add_column(heading, justify="right" if index else "left", overflow="fold")
+    for row in rows:
+        table.add_row(*map(str, row))
+    console = Console(width=max(columns(), 80), markup=False, emoji=False, highlight=False)
+    with console.capture() as printed:
+        console.print(table)
+    lines = [line.rstrip().removeprefix(" ") for line in printed.get().splitlines()]
+    click.echo("\n".join([*filter(None, lines), ""]))
+
+
+def plural(number: int, noun: str) -> str:
+    """Return a number with its noun, which takes an s unless it is one."""
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"

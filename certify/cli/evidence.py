@@ -1,0 +1,199 @@
+"""Commands that show the evidence: list, show, export."""
+
+# ruff: noqa: PLC0415 - the kernel (with it sympy) is imported where it is needed
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import click
+
+from certify.cli.common import (
+    PatternName,
+    examples,
+    existing_root,
+    exit_with,
+    fail,
+    json_option,
+    plural,
+    print_json,
+    print_table,
+    print_wrapped,
+    root_option,
+    verdict_line,
+)
+
+
+@click.command("list", epilog=examples("certify list --json"))
+@root_option
+@json_option
+def list_(root: Path | None, as_json: bool) -> None:
+    """List the patterns and the answers that are claimed.
+
+    Nothing is checked: that is what check-all is for.
+    """
+    from certify import report
+    from certify.kernel.certificate import PATTERN_NAMES, read_certificate
+    from certify.kernel.evidence import Evidence, Malformed, certificate_file
+
+    evidence = Evidence(existing_root(root))
+    claims, rejected = [], []
+    for pattern in PATTERN_NAMES:
+        try:
+            certificate = read_certificate(pattern, evidence.certificate(pattern))
+            claims.append(report.claim_record(certificate))
+        except Malformed as error:
+            fault = f"{certificate_file(pattern)}: {error}"
+            rejected.append({"pattern": pattern, "fault": fault})
+    note = "as claimed; check-all decides"
+    if as_json:
+        print_json({"note": note, "patterns": claims, "rejected": rejected})
+    else:
+        _print_claims(claims, note)
+        for rejection in rejected:
+            click.echo(f"rejected: {rejection['fault']}")
+    exit_with(not rejected)
+
+
+@click.command(epilog=examples("certify show 8_E"))
+@click.argument("pattern", type=PatternName())
+@root_option
+@json_option
+def show(pattern: str, root: Path | None, as_json: bool) -> None:
+    """Show the verdict on a certificate, and its evidence."""
+    from certify import export, report
+    from certify.kernel.check import check_pattern
+
+    folder = existing_root(root)
+    verdict = check_pattern(folder, pattern)
+    record = None
+    if verdict.certificate:
+        lemmas = export.lemmas(folder, verdict.certificate)
+        record = report.evidence_record(verdict.certificate, lemmas)
+    if as_json:
+        print_json({"verdict": report.verdict_record(verdict), "certificate": record})
+    else:
+        click.echo(verdict_line(verdict))
+        if record:
+            _print_evidence(record)
+    exit_with(verdict.fault is None)
+
+
+@click.command(
+    epilog=examples("certify export 15_A realizable --to out", "certify export complete g --to out")
+)
+@click.argument("pattern")
+@click.argument("question")
+@click.option(
+    "--to",
+    type=click.Path(path_type=Path),
+    metavar="DIR",
+    required=True,
+    help="Folder to write to.",
+)
+@root_option
+def export(pattern: str, question: str, to: Path, root: Path | None) -> None:
+    """Write the evidence for one answer for other programs.
+
+    Nothing is written unless the kernel accepts it.
+
+    QUESTION is realizable, convex or valid. For a no: the refuted formula as DIMACS, with the proof
+    as LRAT and as DRAT. For a yes: the points and the tetrahedra as JSON.
+
+    With "complete" for PATTERN and a letter a..g for QUESTION: the formula and the proofs that no
+    pattern with this type of boundary is missing.
+    """
+    from certify.kernel.evidence import Malformed
+    from certify.run import printable
+
+    folder = existing_root(root)
+    try:
+        if pattern == "complete":
+            written = _export_completeness(folder, question, to)
+        else:
+            written = _export_answer(folder, pattern, question, to)
+    except Malformed as error:
+        fail(f"rejected: {error}", code=1)
+    for path in written:
+        click.echo(f"{pattern} {question}: {printable(str(path))}")
+
+
+def _export_completeness(root: Path, letter: str, to: Path) -> list[Path]:
+    from certify.export import export_completeness
+    from certify.kernel.hexahedron import BOUNDARY_TYPES
+    from certify.run import run
+
+    if letter not in BOUNDARY_TYPES:
+        fail(f"unknown boundary type {letter}; it must be one of a to g", code=2)
+    outcome = run(root)
+    if outcome.faults:
+        fail(f"rejected: {outcome.faults[0]}", code=1)
+    return export_completeness(root, letter, outcome.verdicts, to)
+
+
+def _export_answer(root: Path, name: str, question: str, to: Path) -> list[Path]:
+    from certify.export import export_answer
+    from certify.kernel.certificate import QUESTIONS
+    from certify.kernel.check import check_pattern
+
+    pattern = PatternName().convert(name, None, None)
+    if question not in QUESTIONS:
+        fail(f"unknown question {question}; it must be one of {', '.join(QUESTIONS)}", code=2)
+    verdict = check_pattern(root, pattern)
+    if verdict.fault is not None or verdict.certificate is None:
+        fail(verdict_line(verdict), code=1)
+    if verdict.answers[question] == "open":
+        fail(f"{pattern} {question} is open: there is nothing to export", code=2)
+    return export_answer(root, verdict.certificate, question, to)
+
+
+def _print_claims(records: Sequence[dict[str, Any]], note: str) -> None:
+    headings = ("pattern", "tetrahedra", "boundary", "instances", "realizable", "convex", "valid")
+    print_table(headings, ([record[h] for h in headings] for record in records), note)
+
+
+def _print_evidence(record: dict[str, Any]) -> None:
+    from certify.kernel.certificate import QUESTIONS
+    from certify.kernel.evidence import certificate_file
+
+    tetrahedra = ["".join(map(str, tetrahedron)) for tetrahedron in record["tetrahedra"]]
+    click.echo(
+        f"{len(tetrahedra)} tetrahedra, boundary type {record['boundary']}, "
+        f"{record['instances']} instances; from {certificate_file(record['pattern'])}"
+    )
+    click.echo()
+    print_wrapped(f"tetrahedra: {' '.join(tetrahedra)}", hanging=" " * 12)
+    for question in QUESTIONS:
+        evidence = record[question]
+        same = [q for q in QUESTIONS if record[q].get("points") == evidence.get("points")]
+        click.echo(f"{question}: {evidence['answer']}{_shown_by(evidence, same[0], question)}")
+        if "points" in evidence and same[0] == question:
+            _print_points(evidence["points"])
+        if "scaled_jacobians" in evidence:
+            scaled = " ".join(f"{value:.3f}" for value in evidence["scaled_jacobians"])
+            print_wrapped(f"Jacobian at least {evidence['jacobian_at_least']} on the closed cube,")
+            print_wrapped(f"scaled at the vertices 1..8: {scaled}")
+
+
+def _shown_by(evidence: dict[str, Any], first: str, question: str) -> str:
+    """Return what shows an answer; ``first`` is the first question that has the same points."""
+    if "points" in evidence:
+        return ", by these points" if first == question else f", by the points of {first}"
+    if "proof" in evidence:
+        return f", by {evidence['proof']}: {_lemmas(evidence)}"
+    return ""
+
+
+def _lemmas(evidence: dict[str, Any]) -> str:
+    if evidence["lemmas"] is None:
+        return "it cannot be read"
+    lemmas = plural(evidence["lemmas"], "lemma")
+    polynomials = evidence["final_polynomials"]
+    return f"{lemmas}, {plural(polynomials, 'final polynomial')}" if polynomials else lemmas
+
+
+def _print_points(points: Sequence[Sequence[int | str]]) -> None:
+    rows = ([vertex, *point] for vertex, point in enumerate(points, start=1))
+    print_table(("vertex", "x", "y", "z"), rows)
