@@ -34,7 +34,8 @@ def read_dimacs(text: str) -> list[Clause]:
             continue
         for literal in (_integer(word, number) for word in words):
             if abs(literal) > variables:
-                raise Malformed(f"line {number}: {literal} is not among {variables} variables")
+                announced = f"the {max(variables, 0)} variables announced so far"
+                raise Malformed(f"line {number}: {literal} is beyond {announced}")
             if literal:
                 clause.append(literal)
             else:
@@ -42,8 +43,10 @@ def read_dimacs(text: str) -> list[Clause]:
                 clause = []
     if variables < 0:
         raise Malformed('there is no header "p cnf VARIABLES CLAUSES"')
-    if clause or len(clauses) != count:
-        raise Malformed(f"the header announces {count} clauses, but {len(clauses)} end with 0")
+    if clause:
+        raise Malformed("the last clause does not end with 0")
+    if len(clauses) != count:
+        raise Malformed(f"the header announces {count} clauses, but there are {len(clauses)}")
     return clauses
 
 

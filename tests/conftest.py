@@ -1,12 +1,14 @@
 """The shipped certificates, read and checked once for all tests."""
 
 from pathlib import Path
+from shutil import copy
 
 import pytest
 
 from certify.kernel.certificate import Certificate
 from certify.kernel.check import Completeness, Verdict
 from certify.kernel.theorems import Outcome, check_all
+from tests.commands import CHECKOUT, five_a, write
 
 
 @pytest.fixture(scope="session")
@@ -37,3 +39,15 @@ def certificates(verdicts: dict[str, Verdict]) -> dict[str, Certificate]:
 def completeness(outcome: Outcome) -> list[Completeness]:
     """Return the kernel's verdict on every proof that no pattern is missing."""
     return list(outcome.completeness)
+
+
+@pytest.fixture
+def root(tmp_path: Path) -> Path:
+    """Return a root with two certificates: 5_A, by hand, and the non-realizable 15_A."""
+    for folder in ("certificates", "proofs"):
+        (tmp_path / folder).mkdir()
+    write(tmp_path, five_a())
+    copy(CHECKOUT / "certificates" / "15_A.json", tmp_path / "certificates")
+    for proof in (CHECKOUT / "proofs").glob("15_A.*"):
+        copy(proof, tmp_path / "proofs")
+    return tmp_path

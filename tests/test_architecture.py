@@ -1,13 +1,21 @@
 """The kernel imports nothing of ours; lint, format and types are clean."""
 
 import ast
+import importlib.metadata
+import json
 import re
 import subprocess
 import sys
+import venv
+from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
+from shutil import copytree
+from typing import Any
 
 import pytest
+
+from certify.kernel.theorems import Outcome, check_all
 
 KERNEL = Path(__file__).resolve().parents[1] / "certify" / "kernel"
 
@@ -66,9 +74,9 @@ def test_kernel_is_python_only() -> None:
 
 
 ALONE = """
+import runpy
 import sys
 from importlib.abc import MetaPathFinder
-from pathlib import Path
 
 class Hide(MetaPathFinder):
     def find_spec(self, name, path=None, target=None):
@@ -80,17 +88,85 @@ class Hide(MetaPathFinder):
         raise ModuleNotFoundError(name, name=name)
 
 sys.meta_path.insert(0, Hide())
-from certify.kernel.check import check_pattern
-from certify.kernel.theorems import theorems
-for name in ("5_A", "15_A"):
-    assert check_pattern(Path(), name).fault is None
-assert theorems([], [])[0].ok
+runpy.run_module("certify.kernel", run_name="__main__")
 """
 
 
 def test_kernel_needs_nothing_else_at_run_time(shipped: Path) -> None:
-    """It accepts certificates where all other modules are hidden but what sympy itself needs."""
-    assert run(shipped, "-c", ALONE) == (0, "")
+    """Its own door opens where all modules are hidden but its own and those that sympy needs."""
+    code, output = run(shipped, "-c", ALONE)
+    *lines, last = output.splitlines()
+    assert code == 0
+    assert len(lines) == 15
+    assert all(line.startswith("ok: ") for line in lines)
+    assert json.loads(last)["theorems"] == 15
+
+
+@pytest.mark.slow
+def test_kernel_needs_nothing_else_installed(shipped: Path, tmp_path: Path) -> None:
+    """In an environment with sympy alone the door opens, and the command line does not."""
+    venv.create(tmp_path / "venv", with_pip=True)
+    python = tmp_path / "venv" / "bin" / "python"
+    sympy = f"sympy=={importlib.metadata.version('sympy')}"
+    subprocess.run([python, "-m", "pip", "install", "--quiet", sympy], check=True)
+    door, program = (
+        subprocess.run([python, "-m", name], cwd=shipped, capture_output=True, check=False)
+        for name in ("certify.kernel", "certify")
+    )
+    assert (door.returncode, door.stdout.count(b"\nok: ")) == (0, 14)
+    assert program.returncode == 1
+    assert b"No module named 'click'" in program.stderr
+
+
+def test_kernel_door_rejects(tmp_path: Path, shipped: Path) -> None:
+    copytree(shipped / "certificates", tmp_path / "certificates")
+    copytree(shipped / "proofs", tmp_path / "proofs")
+    (tmp_path / "proofs" / "15_A.realizable.lrat").unlink()
+    code, output = run(shipped, "-m", "certify.kernel", str(tmp_path))
+    first, *_, last = output.splitlines()
+    assert code == 1
+    assert first.startswith("rejected: certificates/15_A.json: realizable: ")
+    assert "\nnot shown: realizable: " in output
+    assert "\nok: valid: " in output
+    record = json.loads(last)
+    assert (record["ok"], record["accepted"], record["rejected"]) == (False, 173, 1)
+
+
+@pytest.mark.parametrize("arguments", [["nowhere"], ["a", "b"]])
+def test_kernel_door_needs_a_root(shipped: Path, arguments: list[str]) -> None:
+    code, output = run(shipped, "-m", "certify.kernel", *arguments)
+    assert code == 2
+    assert output.startswith("usage: python -m certify.kernel [ROOT]")
+
+
+def test_digests_are_those_of_sha256sum(shipped: Path, outcome: Outcome) -> None:
+    """As CHECKING.md says, anyone can compute them."""
+    sums = (
+        ("kernel_sha256", "cd certify/kernel && sha256sum *.py | sha256sum"),
+        ("evidence_sha256", "sha256sum certificates/*.json proofs/*.lrat | sha256sum"),
+    )
+    for name, command in sums:
+        result = subprocess.run(
+            ["bash", "-c", f"export LC_ALL=C; {command}"],
+            cwd=shipped,
+            capture_output=True,
+            text=True,
+            check=True,
+        )
+        assert result.stdout.split()[0] == outcome.about[name]
+
+
+def test_each_file_is_read_once(shipped: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    opened: Counter[str] = Counter()
+    original = Path.open
+
+    def counting(path: Path, *args: Any, **settings: Any) -> Any:
+        opened[path.name] += 1
+        return original(path, *args, **settings)
+
+    monkeypatch.setattr(Path, "open", counting)
+    outcome = check_all(shipped)
+    assert opened == {Path(name).name: 1 for result in outcome.results for name in result.files}
 
 
 def test_import_contracts_are_kept(shipped: Path) -> None:
