@@ -14,7 +14,9 @@ import time
 COMMANDS = {
     "import sympy": ["-c", "import sympy"],
     "certify check 15_A": ["-m", "certify", "check", "15_A"],
+    "the kernel's door": ["-m", "certify.kernel"],
     "certify check-all": ["-m", "certify", "check-all"],
+    "check-all --jobs 2": ["-m", "certify", "check-all", "--jobs", "2"],
     "certify audit": ["-m", "certify", "audit"],
 }
 
