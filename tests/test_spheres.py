@@ -8,7 +8,7 @@ import pytest
 
 from certify.kernel.hexahedron import BOUNDARIES, BOUNDARY_TYPES, SYMMETRIES, boundary_triangles
 from certify.kernel.triangulation import orbit
-from certify.search.spheres import (
+from certify.opinions.spheres import (
     Complex,
     bistellar_moves,
     canonical,
