@@ -68,10 +68,11 @@ EDGES = ("12", "14", "15", "23", "26", "34", "36", "48", "56", "58", "67", "78")
 FACETS = ("1234", "1265", "1485", "2376", "3487", "5678")
 """The template of section 3. The list of edges is printed a second time, equal, in section 3.3."""
 
-CAPTION_REFERS_TO = ("the finite precision cube with seven tetrahedra", 4)
-CAPTION_MEANS = ("the boundary of the hexahedron", 7)
-"""The figure of triangulations that the big table's caption gives for its letters, the one that
-shows what they stand for, and the number of triangulations in each."""
+TRIANGULATIONS_IN_FIGURE = {5: 4, 8: 7}
+"""Figure -> how many triangulations it shows: of the finite precision cube, of the boundary.
+
+The caption of Table 2 refers to Figure 5 for the meaning of its letters; they are in Figure 8.
+"""
 
 NO_UNIFORM_MATROID = (
     *("12_U", "12_Y", "13_T", "13_W", "14_A", "14_N"),

@@ -1,51 +1,55 @@
-"""The paper from abstract to discussion: every statement that can be decided, with its verdict.
+"""The referee's list: what the paper claims, as data, and a verdict on each claim.
 
-A verdict is computed from what one run of the kernel has accepted. Nothing here is trusted for the
-theorems; where a claim needs more than they say, the finding's evidence names what is recomputed.
-
-One module for each section holds its claims: :mod:`opening`, :mod:`related` (section 2),
-:mod:`combinatorial` (3), :mod:`geometrical` (4), :mod:`discussion` (5).
+claims.toml has one record for each claim, in the order of the paper: the exact place, the claim in
+our words, a verdict, and the reasons for it (see :mod:`certify.audit.claims`). A verdict stands if
+every reason that can be computed holds in the run at hand, and only then. What a claim needs beyond
+theorems and accepted answers is a named check, in :mod:`certify.audit.checks` or
+:mod:`certify.audit.pattern_checks`. Nothing here is trusted for the theorems.
 """
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable
 
-from certify.audit import combinatorial, discussion, geometrical, opening, related
-from certify.audit.claims import DECISIONS, Case, Claim, Decision, Finding, decide
-from certify.kernel.check import Completeness, Verdict
-
-__all__ = ["CLAIMS", "DECISIONS", "Decision", "Finding", "audit", "summary"]
-
-CLAIMS: tuple[Claim, ...] = (
-    *opening.ABSTRACT,
-    *opening.INTRODUCTION,
-    *opening.TABLE_1,
-    *related.THE_CUBE,
-    *related.FINITE_PRECISION,
-    *combinatorial.DEFINITIONS,
-    *combinatorial.TABLE_2,
-    *combinatorial.BALLS,
-    *combinatorial.BOUNDARY,
-    *combinatorial.GRAPHS,
-    *geometrical.REALIZATION,
-    *geometrical.DEFINITIONS,
-    *geometrical.FORMULATION,
-    *geometrical.CONVEX,
-    *geometrical.CAPTIONS,
-    *geometrical.ONE_BY_ONE,
-    *discussion.DISCUSSION,
-    *discussion.MESH_TABLES,
+from certify.audit import pattern_checks  # noqa: F401 (registers its checks)
+from certify.audit.checks import CHECKS
+from certify.audit.claims import (
+    VERDICTS,
+    WEIGHTS,
+    Accepted,
+    BadClaims,
+    Claim,
+    Finding,
+    decide,
+    load_shipped,
 )
-"""All claims, in the order of the paper."""
+from certify.kernel.theorems import Outcome
+
+__all__ = [
+    "CHECKS",
+    "VERDICTS",
+    "WEIGHTS",
+    "BadClaims",
+    "Claim",
+    "Finding",
+    "audit",
+    "corrections",
+    "summary",
+]
 
 
-def audit(verdicts: Sequence[Verdict], completeness: Sequence[Completeness]) -> list[Finding]:
-    """Return a finding for every claim, decided by these verdicts."""
-    case = Case(verdicts, completeness)
-    return [decide(claim, case) for claim in CLAIMS]
+def audit(outcome: Outcome) -> list[Finding]:
+    """Return a finding for every claim, in the order of the paper."""
+    accepted = Accepted(outcome)
+    return [decide(claim, accepted.holds) for claim in load_shipped()]
 
 
-def summary(findings: Sequence[Finding]) -> dict[str, int]:
+def summary(findings: Iterable[Finding]) -> dict[str, int]:
     """Return how many findings have each verdict, those that none has included."""
     count = Counter(finding.verdict for finding in findings)
-    return {decision: count[decision] for decision in DECISIONS}
+    return {verdict: count[verdict] for verdict in VERDICTS}
+
+
+def corrections(findings: Iterable[Finding]) -> list[Finding]:
+    """Return the corrected claims by weight, the heaviest first, else in the order of the paper."""
+    corrected = [finding for finding in findings if finding.verdict == "corrected"]
+    return sorted(corrected, key=lambda finding: WEIGHTS.index(finding.weight))

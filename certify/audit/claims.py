@@ -1,157 +1,202 @@
-"""What a claim of the paper is, and how it gets its verdict."""
+"""The paper's claims: how claims.toml is read, and how a claim becomes a finding.
 
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field
-from functools import cached_property
-from typing import Literal, NamedTuple, TypeAlias
+A record of the file states a verdict and gives reasons. The verdict is a claim of the file, no more
+trusted than the paper: it stands iff every reason holds in the run at hand.
+"""
 
-from certify.audit.graphs import Balls, Tetrahedra
-from certify.kernel.certificate import PATTERN_NAMES
-from certify.kernel.check import Completeness, Verdict
-from certify.kernel.cube import triangulates_cube, triangulates_finite_precision_cube
-from certify.kernel.theorems import Facts, theorems
+import re
+import tomllib
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, fields
+from importlib.resources import files
+from typing import Any
 
-Decision: TypeAlias = Literal["confirmed", "corrected", "strengthened", "not decided here"]
+from certify.audit.checks import CHECKS, Inputs
+from certify.kernel.certificate import PATTERN_NAMES, QUESTIONS
+from certify.kernel.theorems import Outcome, theorems
 
-DECISIONS: tuple[Decision, ...] = ("confirmed", "corrected", "strengthened", "not decided here")
+COMPUTED = ("confirmed", "corrected", "strengthened", "illustrated")
+"""Verdicts that need a computed reason: a theorem, an answer, or a check."""
 
+UNDECIDED = "not decided here"
+VERDICTS = (*COMPUTED, "argued", UNDECIDED)
 
-@dataclass(frozen=True)
-class Finding:
-    """What became of one statement of the paper.
+WEIGHTS = ("mathematics", "table", "misprint", "wording")
+"""Of corrections, the heaviest first."""
 
-    claim: the statement, in our words; truth: what is true instead, or more, else empty; evidence:
-    the theorems, certificates, proofs and computations that the verdict rests on.
-    """
-
-    id: str
-    place: str
-    claim: str
-    verdict: Decision
-    truth: str
-    evidence: tuple[str, ...]
+THEOREMS = tuple(theorem.id for theorem in theorems((), ()))
 
 
-class Case:
-    """What one run has accepted: the facts that claims are tested against."""
-
-    def __init__(self, verdicts: Sequence[Verdict], completeness: Sequence[Completeness]) -> None:
-        self.facts = Facts(verdicts, completeness)
-        self.proved = {t.id for t in theorems(verdicts, completeness) if t.ok}
-
-    @cached_property
-    def tetrahedra(self) -> dict[str, Tetrahedra]:
-        """Pattern -> its least instance, in the order of the names."""
-        patterns = self.facts.patterns
-        return {name: min(patterns[name].instances) for name in PATTERN_NAMES if name in patterns}
-
-    @cached_property
-    def cube(self) -> set[str]:
-        """The patterns that the vertices of the unit cube realize."""
-        return self.facts.where(triangulates_cube)
-
-    @cached_property
-    def slivers(self) -> set[str]:
-        """The patterns of the cube with slivers on core diagonals."""
-        return self.facts.where(triangulates_finite_precision_cube)
-
-    @property
-    def not_convex(self) -> set[str]:
-        """The patterns that are realizable, but not in convex position."""
-        return self.no("convex") & self.yes("realizable")
-
-    @property
-    def instances(self) -> list[int]:
-        """The sizes of all classes, in increasing order."""
-        return self.facts.instances(set(self.facts.patterns))
-
-    def balls(self, names: Iterable[str] = PATTERN_NAMES) -> Balls:
-        """Return the patterns, or some of them, with their least instances."""
-        return tuple((n, self.tetrahedra[n]) for n in PATTERN_NAMES if n in set(names))
-
-    def all(self, test: Callable[[Tetrahedra], bool]) -> bool:
-        """Do all patterns pass a test?"""
-        return all(map(test, self.tetrahedra.values()))
-
-    def yes(self, question: str) -> set[str]:
-        """Return the patterns for which the answer yes was accepted."""
-        return self.facts.answering(question, "yes")
-
-    def no(self, question: str) -> set[str]:
-        """Return the patterns for which the answer no was accepted."""
-        return self.facts.answering(question, "no")
-
-    def answer(self, pattern: str, question: str) -> str | None:
-        """Return the accepted answer of one pattern, None if there is no accepted certificate."""
-        verdict = self.facts.patterns.get(pattern)
-        return verdict.answers[question] if verdict else None
-
-    def of_size(self, names: Iterable[str], size: int) -> set[str]:
-        """Return those of the patterns that have this number of tetrahedra."""
-        return {name for name in names if self.facts.patterns[name].size == size}
-
-
-Predicate: TypeAlias = Callable[[Case], bool]
-
-
-class Truth(NamedTuple):
-    """A statement of ours, and the test that it is true."""
-
-    statement: str
-    holds: Predicate
+class BadClaims(ValueError):
+    """The file of claims is not as it should be; the message names the record and the key."""
 
 
 @dataclass(frozen=True)
 class Claim:
-    """A statement of the paper, and how to decide it.
+    """One record of claims.toml: what the paper says where, a verdict, and the reasons for it.
 
-    holds: the test of the statement, or None where nothing here decides it; theorems and answers
-    ("15_K valid"): what must have been accepted in this run before anything is tested; recomputed:
-    what the tests compute beyond that; correction: what is true if the statement is not; stronger:
-    what is true beyond it. The test of a correction has to contradict the statement.
+    amendment: what is true instead (corrected, or argued) or beyond it (strengthened); the reasons
+    are then reasons for the amendment. argument: a reason in words, which nothing computes.
+    undecided: why there is no verdict.
     """
 
     id: str
     place: str
     claim: str
-    holds: Predicate | None
-    theorems: tuple[str, ...] = field(default=(), kw_only=True)
-    answers: tuple[str, ...] = field(default=(), kw_only=True)
-    recomputed: str = field(default="", kw_only=True)
-    correction: Truth | None = field(default=None, kw_only=True)
-    stronger: Truth | None = field(default=None, kw_only=True)
+    verdict: str
+    amendment: str = ""
+    weight: str = ""
+    theorems: tuple[str, ...] = ()
+    answers: tuple[str, ...] = ()
+    checks: tuple[str, ...] = ()
+    argument: str = ""
+    undecided: str = ""
+
+    @property
+    def computed(self) -> tuple[str, ...]:
+        """The reasons that a run decides."""
+        return (
+            *(f"theorem {name}" for name in self.theorems),
+            *self.answers,
+            *(f"check {name}" for name in self.checks),
+        )
 
 
-def decide(claim: Claim, case: Case) -> Finding:
-    """Return the finding about a claim.
+@dataclass(frozen=True)
+class Finding:
+    """What became of one claim in one run.
 
-    Where something that the claim rests on was not accepted, it is not decided, whatever the tests
-    would say; nor is it where neither the statement nor its correction passes its test.
+    reasons: all that the verdict rests on; failed: those among them that did not hold, because of
+    which the claim is not decided and nothing is amended.
     """
-    decision: Decision = "not decided here"
-    truth = ""
-    if claim.holds and _stands(claim, case):
-        if claim.holds(case):
-            decision = "confirmed"
-            if claim.stronger and claim.stronger.holds(case):
-                decision, truth = "strengthened", claim.stronger.statement
-        elif claim.correction and claim.correction.holds(case):
-            decision, truth = "corrected", claim.correction.statement
-    return Finding(claim.id, claim.place, claim.claim, decision, truth, _evidence(claim, case))
+
+    id: str
+    place: str
+    claim: str
+    verdict: str
+    amendment: str
+    weight: str
+    reasons: tuple[str, ...]
+    failed: tuple[str, ...]
 
 
-def _stands(claim: Claim, case: Case) -> bool:
-    """Was everything that the claim rests on accepted?"""
-    answers = (case.answer(*answer.split()) for answer in claim.answers)
-    return case.proved.issuperset(claim.theorems) and all(a in ("yes", "no") for a in answers)
+class Accepted:
+    """What one run has accepted: does a computed reason hold in it? Each check is run once."""
+
+    def __init__(self, outcome: Outcome) -> None:
+        self.inputs = Inputs({v.pattern: v for v in outcome.verdicts if v.instances})
+        self._known = {f"theorem {theorem.id}": theorem.ok for theorem in outcome.theorems}
+
+    def holds(self, reason: str) -> bool:
+        """Is the theorem shown, was exactly this answer accepted, or is the check true?"""
+        if reason not in self._known:
+            self._known[reason] = self._decide(*reason.split())
+        return self._known[reason]
+
+    def _decide(self, first: str, second: str, *answer: str) -> bool:
+        if first == "check":
+            return CHECKS[second](self.inputs)
+        verdict = self.inputs.patterns.get(first)
+        return verdict is not None and verdict.answers[second] == answer[-1]
 
 
-def _evidence(claim: Claim, case: Case) -> tuple[str, ...]:
-    files = []
-    for pattern, question in map(str.split, claim.answers):
-        files.append(f"certificates/{pattern}.json")
-        if case.answer(pattern, question) == "no":
-            files.append(f"proofs/{pattern}.{question}.lrat")
-    theorem_ids = [f"theorem {name}" for name in claim.theorems]
-    recomputed = [claim.recomputed] if claim.recomputed else []
-    return tuple(dict.fromkeys((*theorem_ids, *files, *recomputed)))
+def decide(claim: Claim, holds: Callable[[str], bool]) -> Finding:
+    """Return the finding: the stated verdict, unless a computed reason does not hold."""
+    failed = tuple(reason for reason in claim.computed if not holds(reason))
+    words = [f"{k}: {v}" for k in ("argument", "undecided") if (v := getattr(claim, k))]
+    return Finding(
+        claim.id,
+        claim.place,
+        claim.claim,
+        UNDECIDED if failed else claim.verdict,
+        "" if failed else claim.amendment,
+        "" if failed else claim.weight,
+        (*claim.computed, *words),
+        failed,
+    )
+
+
+def load(text: str) -> tuple[Claim, ...]:
+    """Read claims, or raise :class:`BadClaims`."""
+    try:
+        data = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise BadClaims(f"not TOML: {error}") from None
+    if data.keys() != {"claim"}:
+        raise BadClaims(f"not a list of [[claim]]: {sorted(data)}")
+    claims = tuple(_claim(number, record) for number, record in enumerate(data["claim"], start=1))
+    for key in ("id", "claim"):
+        for value, times in Counter(getattr(claim, key) for claim in claims).items():
+            if times > 1:
+                raise BadClaims(f"{key}: {value!r} occurs {times} times")
+    return claims
+
+
+def load_shipped() -> tuple[Claim, ...]:
+    """Read claims.toml."""
+    return load((files("certify.audit") / "claims.toml").read_text(encoding="utf-8"))
+
+
+def _claim(number: int, record: dict[str, object]) -> Claim:
+    """Check one record, and return its claim."""
+    where = f"claim {number} ({record.get('id', 'without id')})"
+
+    def require(true: object, key: str, problem: str) -> None:
+        if not true:
+            raise BadClaims(f"{where}: {key}: {problem}")
+
+    for key in ("id", "place", "claim", "verdict"):
+        require(key in record, key, "is missing")
+    values: dict[str, Any] = {}
+    for key, value in record.items():
+        require(key in _KEYS, key, "is no key")
+        if key in _LISTS:
+            is_list = isinstance(value, list) and value and all(isinstance(v, str) for v in value)
+            require(is_list, key, "is not a list of strings")
+            values[key] = tuple(value) if isinstance(value, list) else ()
+        else:
+            is_text = isinstance(value, str) and value == " ".join(value.split()) != ""
+            require(is_text and str(value).isascii(), key, "is not one line of ASCII")
+            values[key] = value
+    values["answers"] = tuple(_answers(where, values.get("answers", ())))
+    claim = Claim(**values)
+    require(re.fullmatch(r"[a-z0-9]+(-[a-z0-9]+)*", claim.id), "id", "is not like-this-1")
+    require(claim.verdict in VERDICTS, "verdict", f"{claim.verdict!r} is none of {VERDICTS}")
+    for name in claim.theorems:
+        require(name in THEOREMS, "theorems", f"there is no theorem {name!r}")
+    for name in claim.checks:
+        require(name in CHECKS, "checks", f"there is no check {name!r}")
+    twice = [reason for reason, times in Counter(claim.computed).items() if times > 1]
+    require(not twice, "reasons", f"are given twice: {twice}")
+    for key, (needed, allowed) in _RULES.items():
+        present = bool(getattr(claim, key))
+        require(present or claim.verdict not in needed, key, f"is needed if {claim.verdict}")
+        require(not present or claim.verdict in allowed, key, f"is not for {claim.verdict}")
+    require(claim.weight in ("", *WEIGHTS), "weight", f"{claim.weight!r} is none of {WEIGHTS}")
+    return claim
+
+
+_LISTS = ("theorems", "answers", "checks")
+_KEYS = {field.name for field in fields(Claim)}
+_RULES = {
+    "computed": (COMPUTED, COMPUTED),
+    "amendment": (("corrected", "strengthened"), ("corrected", "strengthened", "argued")),
+    "weight": (("corrected",), ("corrected",)),
+    "argument": (("argued",), (*COMPUTED, "argued")),
+    "undecided": ((UNDECIDED,), (UNDECIDED,)),
+}
+"""Key -> the verdicts that need it, and those that may have it."""
+
+
+def _answers(where: str, texts: Sequence[str]) -> Iterator[str]:
+    """Write "15_A 15_B convex = no" as "15_A convex = no", "15_B convex = no"."""
+    for text in texts:
+        *names, question, equals, answer = text.split() if text.count(" ") > 2 else [""] * 4
+        if not (
+            set(names) <= set(PATTERN_NAMES)
+            and question in QUESTIONS
+            and (equals, answer) in (("=", "yes"), ("=", "no"))
+        ):
+            raise BadClaims(f"{where}: answers: {text!r} is not like '15_A convex = no'")
+        yield from (f"{name} {question} = {answer}" for name in names)
