@@ -87,11 +87,9 @@ def table_1_adds_up(inputs: Inputs) -> bool:
 @check
 def table_2_has_the_counts_of_table_1(inputs: Inputs) -> bool:
     """Table 2 has as many names of each size as Table 1, and as many in bold as it takes away."""
-    combinatorial, geometrical = (
-        inputs.table_1[row][0] for row in ("combinatorial", "geometrical")
-    )
-    bold = tuple(a - b for a, b in zip(combinatorial, geometrical, strict=True))
-    return _by_size(inputs.letters) == combinatorial and _by_size(inputs.bold) == bold
+    (every, _), (realizable, _) = inputs.table_1["combinatorial"], inputs.table_1["geometrical"]
+    bold = tuple(a - b for a, b in zip(every, realizable, strict=True))
+    return _by_size(inputs.letters) == every and _by_size(inputs.bold) == bold
 
 
 def _by_size(names: Mapping[str, str] | frozenset[str]) -> Row:
@@ -225,18 +223,20 @@ def grassmann_pluecker_is_an_identity(inputs: Inputs) -> bool:
     """
     polynomials = set()
     for relation in inputs.relations:
-        place: dict[int, int] = {}
-        for x, y, _ in relation:
-            for vertex in (*x, *y):
-                place.setdefault(vertex, len(place))
+        order = list(dict.fromkeys(v for x, y, _ in relation for v in (*x, *y)))
         polynomials.add(
-            tuple((tuple(map(place.get, x)), tuple(map(place.get, y)), e) for x, y, e in relation)
+            tuple(
+                (tuple(map(order.index, x)), tuple(map(order.index, y)), e) for x, y, e in relation
+            )
         )
     vectors = _symbols(6)
+
+    def bracket(places: tuple[int, ...]) -> Any:
+        return _determinant([vectors[place] for place in places])
+
     return len(set(inputs.relations)) == comb(8, 2) * comb(6, 4) and all(
-        sum(e * prod(_determinant([vectors[k] for k in four]) for four in (x, y)) for x, y, e in p)
-        == 0
-        for p in polynomials
+        sum(e * bracket(x) * bracket(y) for x, y, e in polynomial) == 0
+        for polynomial in polynomials
     )
 
 
@@ -291,9 +291,9 @@ def table_3_adds_up(inputs: Inputs) -> bool:
 
 @check
 def row_of_3000_points_is_wrong(inputs: Inputs) -> bool:
-    """Of Table 4 it alone has not its total: it has the sum 48, not 51, with 2 for seven tetrahedra.
+    """It alone in Table 4 does not sum to its total, but to 48 instead of 51.
 
-    With 5 for the 2, the sum would be the total.
+    It has 2 patterns with seven tetrahedra; with 5, the sum would be right.
     """
     wrong = [row for row in inputs.random_points if sum(row[1]) != row[2]]
     return [(points, row[2], sum(row), total) for points, row, total in wrong] == [

@@ -22,8 +22,7 @@ from certify.graphs import (
     edges,
 )
 from certify.kernel.certificate import PATTERN_COUNTS, PATTERN_NAMES
-from certify.kernel.chirotope import chirotope as signs_of
-from certify.kernel.chirotope import circuits
+from certify.kernel.chirotope import chirotope, circuits
 from certify.kernel.cube import CUBE_SIGNS
 from certify.kernel.embedding import NotRealized, require_realization
 from certify.kernel.hexahedron import (
@@ -260,7 +259,7 @@ def of_thirteen_one_has_an_oriented_matroid(inputs: Inputs) -> bool:
 @check_of_patterns
 def valid_need_not_be_convex(inputs: Inputs) -> bool:
     """The example realizes 5_A with positive Jacobian, and one point is inside four others."""
-    signs = signs_of(inputs.dented)
+    signs = chirotope(inputs.dented)
     try:
         require_realization(orientation(_balls(inputs, ["5_A"])["5_A"]), signs)
         require_positive_jacobian(inputs.dented)
@@ -273,9 +272,9 @@ def valid_need_not_be_convex(inputs: Inputs) -> bool:
 def tables_3_and_4_are_possible(inputs: Inputs) -> bool:
     """No entry exceeds the number of patterns of that size that carry a valid hexahedron."""
     found = Counter(v.size for v in inputs.patterns.values() if v.answers["valid"] == "yes")
-    rows = [row for *_, row, _ in (*inputs.meshes, *inputs.random_points)]
+    rows = [row for _, _, row, _ in inputs.meshes] + [row for _, row, _ in inputs.random_points]
     return all(
         entry <= found[size]
         for row in rows
-        for entry, size in zip(row, PATTERN_COUNTS, strict=True)
+        for size, entry in zip(PATTERN_COUNTS, row, strict=True)
     )
