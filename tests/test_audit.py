@@ -1,421 +1,448 @@
-"""The audit of the paper: its verdicts, and what becomes of them when certificates are missing."""
+"""The audit: each reason turns its verdict, each check can fail, the file of claims is strict."""
 
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import replace
-from itertools import combinations
+from itertools import product
+from pathlib import Path
 
-import networkx as nx
 import pytest
 from pysat.solvers import Cadical153
 
 from certify import paper
-from certify.audit import CLAIMS, DECISIONS, Finding, audit, summary
-from certify.audit.examples import (
-    DENTED,
-    MOMENT,
-    ON_A_SPHERE,
-    PINCHED,
-    SAGGING,
-    has_inner_point,
-    has_positive_jacobian,
-    is_convex,
-    jacobian_vanishes_at_a_corner_only,
-    radon_points_are_as_printed,
-    realizes,
-    separates,
-)
-from certify.audit.graphs import (
-    Network,
-    Tetrahedra,
-    around_interior_edges,
-    chordless_cycles,
-    classes,
-    coloured,
-    colourless,
-    complex_of,
-    decomposition,
-    dual,
-    is_sphere,
-    isomorphic,
-)
-from certify.audit.matroids import convex_sign_vectors, is_uniform_chirotope
-from certify.kernel.check import Completeness, Verdict
-from certify.kernel.chirotope import QUADRUPLES, chirotope
-from certify.kernel.hexahedron import BOUNDARIES, SYMMETRIES, boundary_triangles, image
-from certify.kernel.orientations import convex_formula, has_sign
-from certify.kernel.theorems import theorems
+from certify.audit import CHECKS, VERDICTS, Claim, Finding, audit, corrections, summary
+from certify.audit.checks import Inputs
+from certify.audit.claims import THEOREMS, Accepted, BadClaims, decide, load, load_shipped
+from certify.audit.matroids import Formula, uniform_sign_vectors
+from certify.kernel.certificate import PATTERN_NAMES, QUESTIONS
+from certify.kernel.check import Verdict
+from certify.kernel.chirotope import QUADRUPLES
+from certify.kernel.hexahedron import CORNERS
+from certify.kernel.orientations import convex_formula, has_sign, realization_formula
+from certify.kernel.theorems import Outcome, check_all, theorems
 from certify.kernel.triangulation import orientation
-from certify.search.decomposition import adjacency_key, canonical_key, decomposition_graph
-from certify.search.spheres import canonical
 
-Verdicts = dict[str, Verdict]
-
-CORRECTED = {
-    "ball-link",
-    "ball-misprint",
-    "convex-therefore",
-    "discussion-smallest",
-    "figure-valid-15s",
-    "graph-adjacency",
-    "graph-cycles",
-    "graph-edges-again",
-    "graph-relabelling",
-    "introduction-valid",
-    "matroid-alternating",
-    "matroid-cospherical",
-    "meshes-independent",
-    "pattern-15-k",
-    "random-up-to-9",
-    "realization-hull",
-    "sliver-patch",
-    "table-2-figure",
-    "table-2-underlined-letters",
-    "table-4-totals",
-    "template-edges",
-}
-
-UNDECIDED = {"ball-1296", "ball-nine", "meshes-rare", "table-3-entries", "table-4-entries"}
-
-WITHOUT_CERTIFICATES = {
-    "boundary-18",
-    "boundary-64",
-    "convex-inside",
-    "convex-names",
-    "cube-four-apexes",
-    "cube-triangles-on-facets",
-    "cube-types",
-    "constraint-circuits",
-    "graph-edges-again",
-    "introduction-valid",
-    "matroid-alternating",
-    "matroid-cospherical",
-    "matroid-plane",
-    "matroid-relations",
-    "meshes-additional",
-    "meshes-fewer",
-    "meshes-independent",
-    "ball-pentagon",
-    "sliver-no-facet",
-    "sliver-patch",
-    "sliver-types",
-    "table-1-names",
-    "table-1-sums",
-    "table-2-figure",
-    "table-2-names",
-    "table-3-totals",
-    "table-4-totals",
-    "template-edges",
-    "template-facets",
-}
-
-FIVE: Tetrahedra = ((1, 2, 3, 6), (1, 3, 4, 8), (1, 3, 6, 8), (1, 5, 6, 8), (3, 6, 7, 8))
+CLAIMS = load_shipped()
+NOTHING = Outcome((), (), tuple(theorems((), ())))
+UNDECIDED = "not decided here"
 
 
-@pytest.fixture(scope="session")
-def findings(verdicts: Verdicts, completeness: list[Completeness]) -> dict[str, Finding]:
-    return {f.id: f for f in audit(list(verdicts.values()), completeness)}
+@pytest.fixture(scope="module")
+def outcome() -> Outcome:
+    return check_all(Path(__file__).resolve().parents[1])
 
 
-@pytest.fixture(scope="session")
-def balls(verdicts: Verdicts) -> dict[str, Tetrahedra]:
-    return {name: min(verdict.instances) for name, verdict in verdicts.items()}
+@pytest.fixture(scope="module")
+def findings(outcome: Outcome) -> list[Finding]:
+    return audit(outcome)
 
 
-def with_answer(verdicts: Verdicts, name: str, question: str, answer: str) -> list[Verdict]:
-    answers = {**verdicts[name].answers, question: answer}
-    return list({**verdicts, name: replace(verdicts[name], answers=answers)}.values())
+@pytest.fixture(scope="module")
+def inputs(outcome: Outcome) -> Inputs:
+    return Accepted(outcome).inputs
 
 
-def changed(findings: dict[str, Finding], others: Iterable[Finding]) -> dict[str, str]:
-    return {f.id: f.verdict for f in others if f.verdict != findings[f.id].verdict}
+@pytest.fixture
+def all_checks_true(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let checks, which are slow and tested below, not run."""
+    for name in CHECKS:
+        monkeypatch.setitem(CHECKS, name, lambda _: True)
 
 
-def test_each_claim_has_one_finding(
-    findings: dict[str, Finding], verdicts: Verdicts, completeness: list[Completeness]
-) -> None:
-    listed = audit(list(verdicts.values()), completeness)
-    assert [f.id for f in listed] == [claim.id for claim in CLAIMS]
-    assert len(findings) == len(CLAIMS) >= 90
+def with_answer(outcome: Outcome, name: str, question: str, answer: str) -> Outcome:
+    verdicts = [
+        replace(v, answers={**v.answers, question: answer}) if v.pattern == name else v
+        for v in outcome.verdicts
+    ]
+    return replace(outcome, verdicts=tuple(verdicts))
 
 
-def test_findings_are_fit_to_print(findings: dict[str, Finding]) -> None:
-    for finding in findings.values():
-        assert re.fullmatch(r"[a-z0-9]+(-[a-z0-9]+)*", finding.id)
-        assert finding.place
-        assert finding.claim.endswith(".")
-        assert finding.evidence
-        assert all(finding.evidence)
-        assert bool(finding.truth) == (finding.verdict in ("corrected", "strengthened"))
-        assert not finding.truth or finding.truth.endswith(".")
-        for text in (finding.place, finding.claim, finding.truth, *finding.evidence):
-            assert text == " ".join(text.split())
-            assert text.isascii()
-            assert not text.startswith("/")
+def proved_anew(outcome: Outcome) -> Outcome:
+    return replace(outcome, theorems=tuple(theorems(outcome.verdicts, outcome.completeness)))
 
 
-def test_only_what_is_meant_to_be_is_left_undecided(findings: dict[str, Finding]) -> None:
-    assert {f.id for f in findings.values() if f.verdict == "not decided here"} == UNDECIDED
-    assert {claim.id for claim in CLAIMS if claim.holds is None} == UNDECIDED
+# The verdicts
 
 
-def test_the_paper_is_corrected_where_it_is_wrong(findings: dict[str, Finding]) -> None:
-    assert {f.id for f in findings.values() if f.verdict == "corrected"} == CORRECTED
+def test_every_verdict_stands(findings: list[Finding]) -> None:
+    assert [f.failed for f in findings if f.failed] == []
+    assert [(f.id, f.verdict) for f in findings] == [(c.id, c.verdict) for c in CLAIMS]
+    assert summary(findings) == {
+        "confirmed": 43,
+        "corrected": 12,
+        "strengthened": 18,
+        "illustrated": 1,
+        "argued": 10,
+        UNDECIDED: 8,
+    }
+    assert summary([]) == dict.fromkeys(VERDICTS, 0)
 
 
-def test_no_claim_hides_a_correction_it_does_not_need(findings: dict[str, Finding]) -> None:
-    for claim in CLAIMS:
-        if claim.correction and not claim.id.startswith("pattern-15"):
-            assert findings[claim.id].verdict == "corrected"
-        if claim.stronger:
-            assert findings[claim.id].verdict == "strengthened"
+def test_corrections_come_by_weight(findings: list[Finding]) -> None:
+    assert [(f.weight, f.id) for f in corrections(findings)] == [
+        ("mathematics", "table-2-underlined-letters"),
+        ("mathematics", "graph-cycles"),
+        ("mathematics", "graph-adjacency"),
+        ("mathematics", "realization-hull"),
+        ("mathematics", "figure-valid-15s"),
+        ("mathematics", "discussion-smallest"),
+        ("table", "table-4-totals"),
+        ("misprint", "template-edges"),
+        ("misprint", "table-2-figure"),
+        ("misprint", "ball-misprint"),
+        ("misprint", "convex-therefore"),
+        ("wording", "matroid-cospherical"),
+    ]
 
 
-def test_summary_counts_every_finding(findings: dict[str, Finding]) -> None:
-    counts = summary(list(findings.values()))
-    assert tuple(counts) == DECISIONS
-    assert sum(counts.values()) == len(findings)
-    assert counts["corrected"] == len(CORRECTED)
-    assert summary([]) == dict.fromkeys(DECISIONS, 0)
+def test_all_checks_are_used() -> None:
+    assert {name for claim in CLAIMS for name in claim.checks} == set(CHECKS)
+    assert {name for claim in CLAIMS for name in claim.theorems} == set(THEOREMS)
 
 
-def test_evidence_exists(
-    findings: dict[str, Finding], verdicts: Verdicts, completeness: list[Completeness]
-) -> None:
-    known = {theorem.id for theorem in theorems(list(verdicts.values()), completeness)}
-    for finding in findings.values():
-        for evidence in finding.evidence:
-            if evidence.startswith("theorem "):
-                assert evidence.removeprefix("theorem ") in known
-            if evidence.startswith("certificates/"):
-                assert evidence.removeprefix("certificates/").removesuffix(".json") in verdicts
-            if evidence.startswith("proofs/"):
-                name, question, _ = evidence.removeprefix("proofs/").split(".")
-                assert verdicts[name].answers[question] == "no"
+@pytest.mark.parametrize("claim", CLAIMS, ids=lambda claim: claim.id)
+def test_places_can_be_found(claim: Claim) -> None:
+    for place in claim.place.split("; "):
+        assert re.match(
+            r"(abstract, sentence|section \d(\.\d)?, |caption of (Figure|Table) \d+|Table \d)",
+            place,
+        )
 
 
-def test_nothing_that_needs_certificates_is_decided_without_them() -> None:
-    decided = {f.id for f in audit([], []) if f.verdict != "not decided here"}
-    assert decided == WITHOUT_CERTIFICATES
+# Each reason is load-bearing
+
+FLIPS = [(claim, reason) for claim in CLAIMS for reason in claim.computed]
 
 
-def test_without_completeness_nothing_is_said_of_all_patterns(
-    findings: dict[str, Finding], verdicts: Verdicts
-) -> None:
-    needs_all = {t.id for t in theorems([], []) if t.rests_on}
-    for finding in audit(list(verdicts.values()), []):
-        if needs_all.isdisjoint(e.removeprefix("theorem ") for e in finding.evidence):
-            assert finding == findings[finding.id]
-        else:
-            assert finding.verdict == "not decided here"
-
-
-def test_a_missing_certificate_leaves_undecided_what_rests_on_it(
-    findings: dict[str, Finding], verdicts: Verdicts, completeness: list[Completeness]
-) -> None:
-    files = {evidence for finding in findings.values() for evidence in finding.evidence}
-    named = {name for name in verdicts if f"certificates/{name}.json" in files}
-    assert {"7_A", "11_AD", "13_T", "15_K"} <= named
-    for name in (*named, "10_A"):
-        rest = [verdict for verdict in verdicts.values() if verdict.pattern != name]
-        for finding in audit(rest, completeness):
-            file = f"certificates/{name}.json"
-            if file in finding.evidence:
-                assert finding.verdict == "not decided here", (name, finding)
-            assert finding.verdict in ("not decided here", findings[finding.id].verdict)
-
-
-def test_a_rejected_certificate_counts_as_missing(
-    verdicts: Verdicts, completeness: list[Completeness]
-) -> None:
-    rejected = [*verdicts.values()]
-    rejected[rejected.index(verdicts["15_K"])] = Verdict("15_K", fault="spoiled")
-    missing = [verdict for name, verdict in verdicts.items() if name != "15_K"]
-    assert audit(rejected, completeness) == audit(missing, completeness)
-
-
-@pytest.mark.parametrize("question", ["realizable", "convex", "valid"])
-def test_an_open_answer_never_turns_a_verdict(
-    question: str,
-    findings: dict[str, Finding],
-    verdicts: Verdicts,
-    completeness: list[Completeness],
-) -> None:
-    for name, verdict in verdicts.items():
-        if verdict.answers[question] == "no" or verdict.size == 15:
-            opened = audit(with_answer(verdicts, name, question, "open"), completeness)
-            turned = changed(findings, opened)
-            assert turned
-            assert set(turned.values()) == {"not decided here"}
-
-
-def test_verdicts_follow_the_answers(
-    findings: dict[str, Finding], verdicts: Verdicts, completeness: list[Completeness]
-) -> None:
-    turned = changed(findings, audit(with_answer(verdicts, "15_K", "valid", "yes"), completeness))
-    assert turned["figure-valid-15s"] == turned["pattern-15-k"] == "confirmed"
-    assert turned["discussion-smallest"] == "not decided here"
-    turned = changed(findings, audit(with_answer(verdicts, "15_C", "valid", "no"), completeness))
-    assert turned["figure-valid-15s"] == "not decided here"
-    assert turned["pattern-15-c"] == "corrected"
-
-
-def test_verdicts_follow_the_print(
+@pytest.mark.parametrize(("claim", "reason"), FLIPS, ids=lambda x: getattr(x, "id", x))
+def test_each_reason_turns_its_verdict(
+    claim: Claim,
+    reason: str,
+    outcome: Outcome,
+    all_checks_true: None,
     monkeypatch: pytest.MonkeyPatch,
-    findings: dict[str, Finding],
-    verdicts: Verdicts,
-    completeness: list[Completeness],
 ) -> None:
-    (points, row, total), *others = paper.RANDOM_POINTS
-    mended = ((points, (*row[:2], 5, *row[3:]), total), *others)
-    monkeypatch.setattr(paper, "RANDOM_POINTS", mended)
-    edges = tuple("37" if edge == "36" else edge for edge in paper.EDGES)
-    monkeypatch.setattr(paper, "EDGES", edges)
-    exchanged = {"13_T": "13_S", "13_S": "13_T", "13_W": "13_X", "13_X": "13_W"}
-    letters = {name: paper.LETTERS[exchanged.get(name, name)] for name in paper.LETTERS}
-    monkeypatch.setattr(paper, "LETTERS", letters)
-    assert changed(findings, audit(list(verdicts.values()), completeness)) == dict.fromkeys(
-        (
-            "template-edges",
-            "table-2-underlined-letters",
-            "graph-edges-again",
-            "table-4-totals",
-            "random-up-to-9",
-        ),
-        "confirmed",
-    )
+    assert decide(claim, Accepted(outcome).holds).verdict == claim.verdict
+    first, second, *answer = reason.split()
+    if first == "check":
+        monkeypatch.setitem(CHECKS, second, lambda _: False)
+        others = [outcome]
+    elif first == "theorem":
+        unproved = [replace(t, ok=t.ok and t.id != second) for t in outcome.theorems]
+        others = [replace(outcome, theorems=tuple(unproved))]
+    else:
+        others = [
+            with_answer(outcome, first, second, other)
+            for other in {"yes", "no", "open", "rejected"} - {answer[-1]}
+        ]
+    for other in others:
+        finding = decide(claim, Accepted(other).holds)
+        assert (finding.verdict, finding.failed) == (UNDECIDED, (reason,))
+        assert finding.amendment == finding.weight == ""
 
 
-def test_the_tables_add_up_as_the_findings_say() -> None:
-    for row, total in paper.TABLE_1.values():
-        assert sum(row) == total
-    assert all(sum(row) == total for _, _, row, total in paper.MESHES)
-    wrong = [points for points, row, total in paper.RANDOM_POINTS if sum(row) != total]
-    assert wrong == [3000]
-    assert all(len(row) == 11 for _, _, row, _ in paper.MESHES)
-    assert all(len(row) == 11 for _, row, _ in paper.RANDOM_POINTS)
-
-
-def test_the_printed_edges_do_not_bound_the_printed_facets() -> None:
-    sides = {"".join(sorted((facet[i - 1], facet[i]))) for facet in paper.FACETS for i in range(4)}
-    assert set(paper.EDGES) ^ sides == {"36", "37"}
-    assert len(set(paper.EDGES)) == len(sides) == 12
-
-
-def test_chordless_cycles_are_those_of_networkx(balls: dict[str, Tetrahedra]) -> None:
-    for tetrahedra in balls.values():
-        size, plain, _ = decomposition(tetrahedra)
-        expected = {frozenset(cycle) for cycle in nx.chordless_cycles(nx.Graph(list(plain)))}
-        assert chordless_cycles(size, plain) == expected
-        assert around_interior_edges(tetrahedra) <= expected
-
-
-def test_chordless_cycles_of_small_graphs() -> None:
-    assert chordless_cycles(4, ((0, 1), (1, 2), (2, 3), (0, 3))) == {frozenset(range(4))}
-    assert len(chordless_cycles(4, tuple(combinations(range(4), 2)))) == 4
-    assert chordless_cycles(3, ((0, 1), (1, 2))) == frozenset()
-
-
-def partition(
-    balls: dict[str, Tetrahedra], key: Callable[[Tetrahedra], object]
-) -> set[frozenset[str]]:
-    groups: dict[object, set[str]] = {}
-    for name, tetrahedra in balls.items():
-        groups.setdefault(key(tetrahedra), set()).add(name)
-    return set(map(frozenset, groups.values()))
+def test_each_answer_turns_exactly_what_names_it(
+    outcome: Outcome, findings: list[Finding], all_checks_true: None
+) -> None:
+    for name, question in product(PATTERN_NAMES, QUESTIONS):
+        turned = {f.id for f in audit(with_answer(outcome, name, question, "open")) if f.failed}
+        assert turned == {
+            claim.id
+            for claim in CLAIMS
+            if any(answer.startswith(f"{name} {question} =") for answer in claim.answers)
+        }
 
 
 @pytest.mark.parametrize(
-    ("kind", "key"),
+    ("name", "question", "turned"),
     [
-        (coloured, lambda t: canonical_key(decomposition_graph(t))),
-        (colourless, lambda t: adjacency_key(decomposition_graph(t))),
-        (complex_of, canonical),
+        ("15_K", "valid", {"figure-valid-15s", "discussion-smallest", "discussion-missed"}),
+        ("11_AD", "valid", {"discussion-smallest", "discussion-largest", "tables-3-4-possible"}),
+        ("13_T", "convex", {"table-2-underlined", "table-2-underlined-letters", "convex-13"}),
+        (
+            "15_A",
+            "realizable",
+            {"theorem-2", "table-2-bold", "realization-three", "figure-all-15s"},
+        ),
+        ("7_A", "valid", {"discussion-theorem-4", "meshes-171"}),
     ],
 )
-def test_classes_are_those_of_nauty(
-    kind: Callable[[Tetrahedra], Network],
-    key: Callable[[Tetrahedra], object],
-    balls: dict[str, Tetrahedra],
+def test_an_answer_turns_what_rests_on_its_theorems(
+    name: str, question: str, turned: set[str], outcome: Outcome
 ) -> None:
-    assert set(map(frozenset, classes(tuple(balls.items()), kind))) == partition(balls, key)
+    old = next(v for v in outcome.verdicts if v.pattern == name).answers[question]
+    other = {"yes": "no", "no": "yes"}[old]
+    flipped = audit(proved_anew(with_answer(outcome, name, question, other)))
+    assert turned <= {f.id for f in flipped if f.failed}
 
 
-@pytest.mark.parametrize("kind", [coloured, colourless, complex_of, dual])
-def test_symmetries_change_nothing(kind: Callable[[Tetrahedra], Network]) -> None:
-    networks = [
-        kind(tuple(sorted(image(symmetry, tetrahedron) for tetrahedron in FIVE)))
-        for symmetry in SYMMETRIES
+def test_without_certificates_only_print_and_template_are_judged() -> None:
+    def needs_certificates(claim: Claim) -> bool:
+        of_patterns = any(
+            CHECKS[name].__module__.endswith("pattern_checks") for name in claim.checks
+        )
+        return of_patterns or bool(
+            claim.answers or set(claim.theorems) - {"boundaries", "tetrahedra"}
+        )
+
+    failed = {finding.id for finding in audit(NOTHING) if finding.failed}
+    assert failed == {claim.id for claim in CLAIMS if needs_certificates(claim)}
+
+
+def test_a_rejected_certificate_counts_as_missing(outcome: Outcome) -> None:
+    rejected = [
+        Verdict("15_K", fault="spoiled") if v.pattern == "15_K" else v for v in outcome.verdicts
     ]
-    assert all(isomorphic(networks[0], other) for other in networks)
+    missing = [v for v in outcome.verdicts if v.pattern != "15_K"]
+    one, other = (
+        audit(proved_anew(replace(outcome, verdicts=tuple(v)))) for v in (rejected, missing)
+    )
+    assert one == other
+    assert next(f for f in one if f.id == "figure-valid-15s").verdict == UNDECIDED
 
 
-def test_a_sphere_is_closed_connected_and_round() -> None:
-    assert all(is_sphere(boundary_triangles(diagonals)) for diagonals in BOUNDARIES)
-    tetrahedron = list(combinations((1, 2, 3, 4), 3))
-    apart = [(*face[:2], face[2]) for face in combinations((5, 6, 7, 8), 3)]
-    assert is_sphere(tetrahedron)
-    assert not is_sphere(tetrahedron[1:])
-    assert not is_sphere(tetrahedron + apart)
+# Each check can fail
+
+Perturbation = Callable[[Inputs], Inputs]
 
 
-def solutions(tetrahedra: Tetrahedra, most: int) -> int:
-    """Count uniform acyclic sign vectors of the kernel's convex formula, with a solver."""
-    formula = [list(clause) for clause in convex_formula(orientation(tetrahedra))]
-    formula += [[has_sign(quadruple, 1), has_sign(quadruple, -1)] for quadruple in QUADRUPLES]
-    found = 0
-    with Cadical153(bootstrap_with=formula) as solver:
-        while found < most and solver.solve():
-            found += 1
-            solver.add_clause([-literal for literal in solver.get_model()])
-    return found
+def field(**changes: Callable[[Inputs], object]) -> Perturbation:
+    """Replace fields of the inputs by what is made of them."""
+    return lambda inputs: inputs._replace(**{key: new(inputs) for key, new in changes.items()})
 
 
-def test_sign_vectors_are_those_of_a_solver(
-    balls: dict[str, Tetrahedra], verdicts: Verdicts
-) -> None:
-    for name in sorted(paper.UNDERLINED):
-        assert convex_sign_vectors(balls[name]) == solutions(balls[name], 2), name
-    for name in ("5_A", "8_E", "15_C"):
-        assert convex_sign_vectors(balls[name]) in (None, 1)
-        assert solutions(balls[name], 1) == 1
-    alone = {name for name in paper.UNDERLINED if convex_sign_vectors(balls[name])}
-    assert alone == {paper.NEEDS_FINAL_POLYNOMIAL}
+def verdict(name: str, change: Callable[[Inputs], dict[str, object]]) -> Perturbation:
+    """Replace fields of one accepted verdict."""
+
+    def perturbed(inputs: Inputs) -> Inputs:
+        changed = replace(inputs.patterns[name], **change(inputs))  # type: ignore[arg-type]
+        return inputs._replace(patterns={**inputs.patterns, name: changed})
+
+    return perturbed
 
 
-def test_chirotopes_of_general_points_are_uniform() -> None:
-    signs = dict(chirotope(MOMENT))
-    assert is_uniform_chirotope(signs)
-    assert is_uniform_chirotope(chirotope(ON_A_SPHERE))
-    assert not is_uniform_chirotope({**signs, (1, 2, 3, 4): 0})
-    assert not is_uniform_chirotope({**signs, (1, 3, 5, 7): -signs[1, 3, 5, 7]})
-    assert not is_uniform_chirotope(chirotope(PINCHED))
+def as_if(name: str, other: str) -> Perturbation:
+    """Let one pattern have the tetrahedra of another."""
+    return verdict(name, lambda inputs: {"instances": inputs.patterns[other].instances})
 
 
-def test_the_examples_show_what_they_should() -> None:
-    assert realizes(SAGGING, FIVE)
-    assert is_convex(SAGGING)
-    assert separates(SAGGING, (1, 2, 3))
-    assert not separates(MOMENT, (1, 2, 3))
-    assert realizes(DENTED, FIVE)
-    assert has_positive_jacobian(DENTED)
-    assert has_inner_point(DENTED)
-    assert not is_convex(DENTED)
-    assert not has_inner_point(SAGGING)
-    assert not realizes(MOMENT, FIVE)
-    assert not has_positive_jacobian(PINCHED)
-    assert jacobian_vanishes_at_a_corner_only(PINCHED)
-    assert not jacobian_vanishes_at_a_corner_only(SAGGING)
-    assert radon_points_are_as_printed(MOMENT)
-    assert not radon_points_are_as_printed(PINCHED)
+def instances(name: str, *tetrahedra: tuple[tuple[int, ...], ...]) -> Perturbation:
+    return verdict(name, lambda _: {"instances": frozenset(tetrahedra)})
 
 
-def test_the_pinched_map_is_injective_on_a_grid() -> None:
-    steps = range(7)
-    images = {
-        tuple(36 * 3 * x - u * v * w for x in (u, v, w))
-        for u in steps
-        for v in steps
-        for w in steps
-    }
-    assert len(images) == 7**3
+def letters(**changes: str) -> Perturbation:
+    return field(letters=lambda i: i.letters | {k[1:]: letter for k, letter in changes.items()})
+
+
+def types(kind: str, quadruple: tuple[int, ...]) -> Perturbation:
+    return field(types=lambda i: {**i.types, quadruple: kind})
+
+
+CUBE_POINTS = tuple(CORNERS.values())
+ONE_EDGE = ((1, 2, 3, 4), (1, 2, 5, 6), (1, 2, 7, 8))
+"""Twelve boundary triangles, but no ball."""
+
+PERTURBED: dict[str, list[Perturbation]] = {
+    "table-1-adds-up": [field(table_1=lambda i: {**i.table_1, "geometrical": ((1, 5), 171)})],
+    "table-2-has-the-counts-of-table-1": [
+        field(bold=lambda i: i.bold - {"15_B"}),
+        field(letters=lambda i: {k: v for k, v in i.letters.items() if k != "9_M"}),
+    ],
+    "table-2-has-no-gaps": [
+        field(letters=lambda i: {k: v for k, v in i.letters.items() if k != "9_C"})
+    ],
+    "letters-are-seven": [
+        field(triangulations_in_figure=lambda _: {5: 7, 8: 7}),
+        field(letters=lambda i: dict.fromkeys(i.letters, "a")),
+    ],
+    "text-names-the-underlined": [field(no_matroid=lambda i: (*i.no_matroid[1:], "12_A"))],
+    "facets-are-those-of-a-cube": [field(facets=lambda i: ("1243", *i.facets[1:]))],
+    "edge-36-is-a-diagonal": [
+        field(edges=lambda i: tuple("37" if edge == "36" else edge for edge in i.edges))
+    ],
+    "boundaries-have-18-edges": [
+        field(boundaries=lambda i: (*i.boundaries, frozenset(sorted(i.boundaries[0])[1:])))
+    ],
+    "types-are-orbits": [types("slanted", (1, 2, 4, 5))],
+    "triangles-have-four-apexes": [types("slanted", (1, 2, 4, 5))],
+    "core-diagonals-touch-no-facet": [types("core diagonal", (1, 2, 4, 5))],
+    "grassmann-pluecker-is-an-identity": [
+        field(
+            relations=lambda i: (tuple((x, y, 1) for x, y, _ in i.relations[0]), *i.relations[1:])
+        ),
+        field(relations=lambda i: i.relations[1:]),
+    ],
+    "cramer-is-an-identity": [
+        field(
+            dependences=lambda i: tuple(tuple((v, q, 1) for v, q, _ in d) for d in i.dependences)
+        ),
+        field(dependences=lambda i: i.dependences[1:]),
+    ],
+    "cospherical-points-can-be-uniform": [
+        field(on_a_sphere=lambda i: (*i.on_a_sphere[:7], i.on_a_sphere[0])),
+        field(on_a_sphere=lambda i: (*i.on_a_sphere[:7], tuple(2 * x for x in i.on_a_sphere[7]))),
+    ],
+    "one-triangle-turns": [field(in_the_plane=lambda i: (i.in_the_plane[0],) * 2)],
+    "table-3-adds-up": [field(meshes=lambda i: ((*i.meshes[0][:3], 10), *i.meshes[1:]))],
+    "row-of-3000-points-is-wrong": [
+        field(random_points=lambda i: ((*i.random_points[0][:2], 48), *i.random_points[1:])),
+        field(random_points=lambda i: (*i.random_points[:8], (*i.random_points[8][:2], 104))),
+    ],
+    "meshes-have-more-than-ten": [
+        field(meshes=lambda i: (*i.meshes[:11], (*i.meshes[11][:3], 10)))
+    ],
+    "meshes-have-fewer-than-random-points": [
+        field(meshes=lambda i: (*i.meshes[:11], ("Knuckle", 3_058_481, i.random_points[8][1], 105)))
+    ],
+    "letters-fit-in-one-way": [
+        letters(_5_A="b"),
+        verdict("13_T", lambda _: {"boundary": "c"}),
+    ],
+    "letters-of-the-bold-are-right": [letters(_15_A="f")],
+    "letters-of-two-underlined-are-wrong": [
+        letters(_13_T="d", _13_W="g"),
+        letters(_14_A="d"),
+        verdict("13_T", lambda _: {"boundary": "c"}),
+    ],
+    "either-regular-or-diameter": [as_if("6_A", "7_A"), as_if("6_A", "5_A")],
+    "two-have-a-regular-tetrahedron": [as_if("5_A", "6_A"), as_if("5_A", "7_A")],
+    "duals-tell-five-apart": [as_if("6_A", "6_B"), as_if("6_A", "5_A")],
+    "cells-of-cubes-are-interior-edges": [as_if("6_A", "15_A")],
+    "slivers-leave-two-prisms": [
+        as_if("7_B", "7_A"),
+        field(types=lambda i: dict.fromkeys(i.types, "core diagonal")),
+    ],
+    "cones-close-the-balls": [instances("9_A", ONE_EDGE), instances("9_A", ((1, 2, 3, 6),))],
+    "cycles-need-not-be-edges": [as_if("15_A", "5_A"), as_if("5_A", "15_A")],
+    "coloured-graphs-tell-patterns-apart": [as_if("6_C", "6_D")],
+    "isomorphism-needs-colours": [as_if("6_C", "6_D"), as_if("6_A", "6_B")],
+    "balls-forget-facets": [as_if("15_A", "15_C"), as_if("15_K", "15_C"), as_if("6_A", "6_B")],
+    "three-have-no-oriented-matroid": [
+        as_if("15_A", "15_C"),
+        field(bold=lambda i: i.bold - {"15_B"}),
+    ],
+    "of-thirteen-one-has-an-oriented-matroid": [
+        as_if("12_U", "12_A"),
+        as_if("15_G", "15_H"),
+        field(underlined=lambda i: i.underlined - {"12_U"}),
+    ],
+    "valid-need-not-be-convex": [
+        field(dented=lambda _: CUBE_POINTS),
+        as_if("5_A", "6_A"),
+    ],
+    "tables-3-and-4-are-possible": [
+        verdict("9_A", lambda i: {"answers": {**i.patterns["9_A"].answers, "valid": "no"}}),
+    ],
+}
+
+
+@pytest.mark.parametrize("name", CHECKS)
+def test_each_check_holds_and_can_fail(name: str, inputs: Inputs) -> None:
+    assert CHECKS[name](inputs)
+    assert PERTURBED[name]
+    for number, perturb in enumerate(PERTURBED[name]):
+        assert not CHECKS[name](perturb(inputs)), number
+
+
+def test_sign_vectors_are_those_of_a_solver(inputs: Inputs) -> None:
+    def solutions(name: str, formula: Formula) -> int:
+        signs = orientation(min(inputs.patterns[name].instances))
+        clauses = [*formula(signs), *((has_sign(q, 1), has_sign(q, -1)) for q in QUADRUPLES)]
+        found = 0
+        with Cadical153(bootstrap_with=clauses) as solver:
+            while found < 2 and solver.solve():
+                found += 1
+                solver.add_clause([-literal for literal in solver.get_model()])
+        return found
+
+    for formula, names in (
+        (realization_formula, sorted(paper.BOLD)),
+        (convex_formula, [*sorted(paper.UNDERLINED), "5_A", "15_C"]),
+    ):
+        for name in names:
+            ours = uniform_sign_vectors(min(inputs.patterns[name].instances), formula)
+            assert (2 if ours is None else ours) == solutions(name, formula), name
+
+
+# The file of claims
+
+RECORD = {
+    "id": '"a-claim"',
+    "place": '"section 1"',
+    "claim": '"It is so."',
+    "verdict": '"confirmed"',
+    "theorems": '["patterns"]',
+}
+
+
+def toml(**changes: str | None) -> str:
+    record = {**RECORD, **changes}
+    return "[[claim]]\n" + "".join(f"{k} = {v}\n" for k, v in record.items() if v is not None)
+
+
+def test_a_record_becomes_a_claim() -> None:
+    answers = '["15_A 15_B convex = no", "5_A valid = yes"]'
+    (claim,) = load(toml(answers=answers, checks='["table-1-adds-up"]'))
+    assert claim.computed == (
+        "theorem patterns",
+        "15_A convex = no",
+        "15_B convex = no",
+        "5_A valid = yes",
+        "check table-1-adds-up",
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("[[claim]\n", "not TOML"),
+        ("[[claims]]\n", "not a list"),
+        (toml() + toml(claim='"Else."'), "id: 'a-claim' occurs 2 times"),
+        (toml() + toml(id='"b"'), "claim: 'It is so.' occurs 2 times"),
+        (toml(id=None), r"claim 1 \(without id\): id: is missing"),
+        *((toml(**{key: None}), f"a-claim.*{key}: is missing") for key in ("place", "claim")),
+        (toml(verdict=None), "verdict: is missing"),
+        (toml(check='"table-1-adds-up"'), "check: is no key"),
+        (toml(theorems='"patterns"'), "theorems: is not a list of strings"),
+        (toml(theorems="[]"), "theorems: is not a list of strings"),
+        (toml(theorems="[1]"), "theorems: is not a list of strings"),
+        (toml(place="1"), "place: is not one line of ASCII"),
+        (toml(place='""'), "place: is not one line of ASCII"),
+        (toml(claim='"Pl\u00fccker."'), "claim: is not one line of ASCII"),
+        (toml(claim='" It is so."'), "claim: is not one line of ASCII"),
+        (toml(id='"A claim"'), "id: is not like-this-1"),
+        (toml(verdict='"true"'), "verdict: 'true' is none of"),
+        (toml(theorems='["pattern"]'), "theorems: there is no theorem 'pattern'"),
+        (toml(checks='["table-2-adds-up"]'), "checks: there is no check 'table-2-adds-up'"),
+        (toml(theorems='["patterns", "patterns"]'), "reasons: are given twice"),
+        (toml(answers='["15_A convex = no", "15_A convex = no"]'), "reasons: are given twice"),
+        *(
+            (toml(answers=f'["{text}"]'), "answers: .* is not like")
+            for text in ("15_A convex", "16_A convex = no", "15_A flat = no", "15_A convex = open")
+        ),
+        (toml(answers='["convex = no"]'), "answers: .* is not like"),
+        (toml(answers='["15_A convex no no"]'), "answers: .* is not like"),
+        *(
+            (toml(verdict=f'"{verdict}"', theorems=None), "computed: is needed")
+            for verdict in ("confirmed", "illustrated")
+        ),
+        (toml(theorems=None, argument='"So."'), "computed: is needed if confirmed"),
+        (toml(amendment='"Else."'), "amendment: is not for confirmed"),
+        (toml(verdict='"strengthened"'), "amendment: is needed if strengthened"),
+        (toml(verdict='"corrected"', weight='"table"'), "amendment: is needed if corrected"),
+        (toml(verdict='"corrected"', amendment='"No."'), "weight: is needed if corrected"),
+        (toml(weight='"table"'), "weight: is not for confirmed"),
+        (
+            toml(verdict='"corrected"', amendment='"No."', weight='"taste"'),
+            "weight: 'taste' is none of",
+        ),
+        (toml(undecided='"Why."'), "undecided: is not for confirmed"),
+        (toml(verdict='"argued"', argument='"So."'), "computed: is not for argued"),
+        (toml(verdict='"argued"', theorems=None), "argument: is needed if argued"),
+        (toml(verdict=f'"{UNDECIDED}"', theorems=None), "undecided: is needed"),
+        (toml(verdict=f'"{UNDECIDED}"', undecided='"Why."'), "computed: is not for not decided"),
+    ],
+)
+def test_a_bad_record_is_refused(text: str, message: str) -> None:
+    with pytest.raises(BadClaims, match=message):
+        load(text)

@@ -224,18 +224,14 @@ def grassmann_pluecker_is_an_identity(inputs: Inputs) -> bool:
     polynomials = set()
     for relation in inputs.relations:
         order = list(dict.fromkeys(v for x, y, _ in relation for v in (*x, *y)))
-        polynomials.add(
-            tuple(
-                (tuple(map(order.index, x)), tuple(map(order.index, y)), e) for x, y, e in relation
-            )
-        )
+        polynomials.add(tuple((*map(order.index, (*x, *y)), e) for x, y, e in relation))
     vectors = _symbols(6)
 
     def bracket(places: tuple[int, ...]) -> Any:
         return _determinant([vectors[place] for place in places])
 
     return len(set(inputs.relations)) == comb(8, 2) * comb(6, 4) and all(
-        sum(e * bracket(x) * bracket(y) for x, y, e in polynomial) == 0
+        sum(bracket(term[:4]) * bracket(term[4:8]) * term[8] for term in polynomial) == 0
         for polynomial in polynomials
     )
 

@@ -2,7 +2,7 @@
 
 from collections import Counter
 from collections.abc import Callable, Iterable
-from itertools import combinations
+from itertools import chain, combinations
 
 from certify.audit.checks import Check, Inputs, check
 from certify.audit.matroids import uniform_sign_vectors
@@ -11,7 +11,6 @@ from certify.graphs import (
     Tetrahedra,
     around_interior_edges,
     ball,
-    boundary,
     chordless_cycles,
     classes,
     coloured,
@@ -27,15 +26,13 @@ from certify.kernel.cube import CUBE_SIGNS
 from certify.kernel.embedding import NotRealized, require_realization
 from certify.kernel.hexahedron import (
     CORNERS,
-    SYMMETRIES,
     VERTICES,
     Simplex,
-    image,
     sorted_with_sign,
 )
 from certify.kernel.jacobian import require_positive_jacobian
 from certify.kernel.orientations import convex_formula, realization_formula
-from certify.kernel.triangulation import orientation
+from certify.kernel.triangulation import orbit, orientation, triangles
 from certify.paper import NEEDS_FINAL_POLYNOMIAL, size
 
 CUBE = tuple(name for name in PATTERN_NAMES if size(name) <= 6)
@@ -146,12 +143,8 @@ def either_regular_or_diameter(inputs: Inputs) -> bool:
 @check_of_patterns
 def two_have_a_regular_tetrahedron(inputs: Inputs) -> bool:
     """Two of the 74 have a regular tetrahedron, and a symmetry takes one to the other."""
-    found = {frozenset(instance) for instance in _of_the_cube(inputs) if _regular(instance)}
-    images = {
-        frozenset(image(symmetry, tetrahedron) for tetrahedron in next(iter(found)))
-        for symmetry in SYMMETRIES
-    }
-    return len(found) == 2 and found == images
+    found = [instance for instance in _of_the_cube(inputs) if _regular(instance)]
+    return len(found) == 2 and orbit(found[0]) == set(found)
 
 
 @check_of_patterns
@@ -177,15 +170,21 @@ def slivers_leave_two_prisms(inputs: Inputs) -> bool:
 
 
 def _prisms(inputs: Inputs, tetrahedra: Tetrahedra) -> list[int]:
-    """Return how many tetrahedra are on either side of the sliver, those on both sides nowhere."""
-    sliver, *more = [t for t in tetrahedra if inputs.types[t] == "core diagonal"] or [(1, 2, 3, 4)]
+    """Return how many tetrahedra are on either side of the only core diagonal one, else nothing.
+
+    Those on both sides are not counted.
+    """
+    slivers = [t for t in tetrahedra if inputs.types[t] == "core diagonal"]
+    if len(slivers) != 1:
+        return []
     sides: Counter[int] = Counter()
     for tetrahedron in tetrahedra:
-        apexes = (sorted_with_sign((*sliver[:3], v)) for v in tetrahedron if v not in sliver)
-        touched = {sign * CUBE_SIGNS[four] for four, sign in apexes}
+        others = [vertex for vertex in tetrahedron if vertex not in slivers[0]]
+        fours = (sorted_with_sign((*slivers[0][:3], vertex)) for vertex in others)
+        touched = {sign * CUBE_SIGNS[four] for four, sign in fours}
         if len(touched) == 1:
             sides.update(touched)
-    return [] if more else sorted(sides.values())
+    return sorted(sides.values())
 
 
 # Balls and decomposition graphs
@@ -196,11 +195,16 @@ APEX = len(VERTICES) + 1
 
 @check_of_patterns
 def cones_close_the_balls(inputs: Inputs) -> bool:
-    """Every pattern has a boundary, of 12 triangles; with the cone over it there is none left."""
-    return all(
-        len(boundary(t)) == 12 and not boundary((*t, *cone(t, APEX)))
-        for t in _balls(inputs).values()
-    )
+    """Every pattern has 12 boundary triangles; with the cone over them all triangles are shared.
+
+    Then each triangle, with the ninth vertex or without, is in exactly two tetrahedra.
+    """
+    for t in _balls(inputs).values():
+        sphere = (*t, *cone(t, APEX))
+        times = Counter(chain.from_iterable(map(triangles, sphere)))
+        if len(sphere) != len(t) + 12 or set(times.values()) != {2}:
+            return False
+    return True
 
 
 @check_of_patterns
