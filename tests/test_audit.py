@@ -5,6 +5,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from itertools import product
 from pathlib import Path
+from typing import Any
 
 import pytest
 from pysat.solvers import Cadical153
@@ -206,16 +207,16 @@ def test_a_rejected_certificate_counts_as_missing(outcome: Outcome) -> None:
 Perturbation = Callable[[Inputs], Inputs]
 
 
-def field(**changes: Callable[[Inputs], object]) -> Perturbation:
+def field(**changes: Callable[[Inputs], Any]) -> Perturbation:
     """Replace fields of the inputs by what is made of them."""
     return lambda inputs: inputs._replace(**{key: new(inputs) for key, new in changes.items()})
 
 
-def verdict(name: str, change: Callable[[Inputs], dict[str, object]]) -> Perturbation:
+def verdict(name: str, change: Callable[[Inputs], dict[str, Any]]) -> Perturbation:
     """Replace fields of one accepted verdict."""
 
     def perturbed(inputs: Inputs) -> Inputs:
-        changed = replace(inputs.patterns[name], **change(inputs))  # type: ignore[arg-type]
+        changed = replace(inputs.patterns[name], **change(inputs))
         return inputs._replace(patterns={**inputs.patterns, name: changed})
 
     return perturbed
@@ -231,7 +232,9 @@ def instances(name: str, *tetrahedra: tuple[tuple[int, ...], ...]) -> Perturbati
 
 
 def letters(**changes: str) -> Perturbation:
-    return field(letters=lambda i: i.letters | {k[1:]: letter for k, letter in changes.items()})
+    return field(
+        letters=lambda i: {**i.letters, **{k[1:]: letter for k, letter in changes.items()}}
+    )
 
 
 def types(kind: str, quadruple: tuple[int, ...]) -> Perturbation:
