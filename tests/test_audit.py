@@ -4,7 +4,6 @@ import re
 from collections.abc import Callable
 from dataclasses import replace
 from itertools import product
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -20,17 +19,12 @@ from certify.kernel.check import Verdict
 from certify.kernel.chirotope import QUADRUPLES
 from certify.kernel.hexahedron import CORNERS
 from certify.kernel.orientations import convex_formula, has_sign, realization_formula
-from certify.kernel.theorems import Outcome, check_all, theorems
+from certify.kernel.theorems import Outcome, theorems
 from certify.kernel.triangulation import orientation
 
 CLAIMS = load_shipped()
 NOTHING = Outcome((), (), tuple(theorems((), ())))
 UNDECIDED = "not decided here"
-
-
-@pytest.fixture(scope="module")
-def outcome() -> Outcome:
-    return check_all(Path(__file__).resolve().parents[1])
 
 
 @pytest.fixture(scope="module")

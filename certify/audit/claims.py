@@ -104,7 +104,8 @@ class Accepted:
 def decide(claim: Claim, holds: Callable[[str], bool]) -> Finding:
     """Return the finding: the stated verdict, unless a computed reason does not hold."""
     failed = tuple(reason for reason in claim.computed if not holds(reason))
-    words = [f"{k}: {v}" for k in ("argument", "undecided") if (v := getattr(claim, k))]
+    words = [f"in words: {claim.argument}"] if claim.argument else []
+    words += [f"undecided: {claim.undecided}"] if claim.undecided else []
     return Finding(
         claim.id,
         claim.place,
