@@ -394,6 +394,9 @@ def test_a_record_becomes_a_claim() -> None:
     [
         ("[[claim]\n", "not TOML"),
         ("[[claims]]\n", "not a list"),
+        ("claim = 1\n", "not a list"),
+        ("claim = [1]\n", "not a list"),
+        ("x = 1\n" + toml(), "not a list"),
         (toml() + toml(claim='"Else."'), "id: 'a-claim' occurs 2 times"),
         (toml() + toml(id='"b"'), "claim: 'It is so.' occurs 2 times"),
         (toml(id=None), r"claim 1 \(without id\): id: is missing"),
@@ -402,15 +405,15 @@ def test_a_record_becomes_a_claim() -> None:
         (toml(check='"table-1-adds-up"'), "check: is no key"),
         (toml(theorems='"patterns"'), "theorems: is not a list of strings"),
         (toml(theorems="[]"), "theorems: is not a list of strings"),
-        (toml(theorems="[1]"), "theorems: is not a list of strings"),
-        (toml(place="1"), "place: is not one line of ASCII"),
-        (toml(place='""'), "place: is not one line of ASCII"),
-        (toml(claim='"Pl\u00fccker."'), "claim: is not one line of ASCII"),
-        (toml(claim='" It is so."'), "claim: is not one line of ASCII"),
+        (toml(theorems="[1]"), "theorems: 1 is not one line"),
+        (toml(place="1"), "place: .* is not one line of ASCII"),
+        (toml(place='""'), "place: .* is not one line of ASCII"),
+        (toml(claim='"Pl\u00fccker."'), "claim: .* is not one line of ASCII"),
+        (toml(claim='" It is so."'), "claim: .* is not one line of ASCII"),
         (toml(id='"A claim"'), "id: is not like-this-1"),
         (toml(verdict='"true"'), "verdict: 'true' is none of"),
-        (toml(theorems='["pattern"]'), "theorems: there is no theorem 'pattern'"),
-        (toml(checks='["table-2-adds-up"]'), "checks: there is no check 'table-2-adds-up'"),
+        (toml(theorems='["pattern"]'), "theorems: 'pattern' is none of"),
+        (toml(checks='["table-2-adds-up"]'), "checks: 'table-2-adds-up' is none of"),
         (toml(theorems='["patterns", "patterns"]'), "reasons: are given twice"),
         (toml(answers='["15_A convex = no", "15_A convex = no"]'), "reasons: are given twice"),
         *(
@@ -418,12 +421,16 @@ def test_a_record_becomes_a_claim() -> None:
             for text in ("15_A convex", "16_A convex = no", "15_A flat = no", "15_A convex = open")
         ),
         (toml(answers='["convex = no"]'), "answers: .* is not like"),
+        (toml(answers='["convex convex = no"]'), "answers: .* is not like"),
         (toml(answers='["15_A convex no no"]'), "answers: .* is not like"),
         *(
-            (toml(verdict=f'"{verdict}"', theorems=None), "computed: is needed")
+            (
+                toml(verdict=f'"{verdict}"', theorems=None),
+                "a theorem, an answer or a check: is needed",
+            )
             for verdict in ("confirmed", "illustrated")
         ),
-        (toml(theorems=None, argument='"So."'), "computed: is needed if confirmed"),
+        (toml(theorems=None, argument='"So."'), "check: is needed if confirmed"),
         (toml(amendment='"Else."'), "amendment: is not for confirmed"),
         (toml(verdict='"strengthened"'), "amendment: is needed if strengthened"),
         (toml(verdict='"corrected"', weight='"table"'), "amendment: is needed if corrected"),
@@ -434,10 +441,10 @@ def test_a_record_becomes_a_claim() -> None:
             "weight: 'taste' is none of",
         ),
         (toml(undecided='"Why."'), "undecided: is not for confirmed"),
-        (toml(verdict='"argued"', argument='"So."'), "computed: is not for argued"),
+        (toml(verdict='"argued"', argument='"So."'), "check: is not for argued"),
         (toml(verdict='"argued"', theorems=None), "argument: is needed if argued"),
         (toml(verdict=f'"{UNDECIDED}"', theorems=None), "undecided: is needed"),
-        (toml(verdict=f'"{UNDECIDED}"', undecided='"Why."'), "computed: is not for not decided"),
+        (toml(verdict=f'"{UNDECIDED}"', undecided='"Why."'), "check: is not for not decided"),
     ],
 )
 def test_a_bad_record_is_refused(text: str, message: str) -> None:

@@ -33,6 +33,7 @@ __all__ = [
     "Finding",
     "audit",
     "corrections",
+    "load_shipped",
     "summary",
 ]
 

@@ -7,8 +7,8 @@ trusted than the paper: it stands iff every reason holds in the run at hand.
 import re
 import tomllib
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, fields
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import MISSING, dataclass, fields
 from importlib.resources import files
 from typing import Any
 
@@ -118,68 +118,69 @@ def decide(claim: Claim, holds: Callable[[str], bool]) -> Finding:
     )
 
 
+def load_shipped() -> tuple[Claim, ...]:
+    """Read claims.toml."""
+    return load((files("certify.audit") / "claims.toml").read_text(encoding="utf-8"))
+
+
 def load(text: str) -> tuple[Claim, ...]:
     """Read claims, or raise :class:`BadClaims`."""
     try:
         data = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise BadClaims(f"not TOML: {error}") from None
-    if data.keys() != {"claim"}:
-        raise BadClaims(f"not a list of [[claim]]: {sorted(data)}")
-    claims = tuple(_claim(number, record) for number, record in enumerate(data["claim"], start=1))
+    records = data.get("claim")
+    if len(data) != 1 or not (isinstance(records, list) and all(type(r) is dict for r in records)):
+        raise BadClaims("not a list of [[claim]], and nothing else")
+    claims = []
+    for number, record in enumerate(records, start=1):
+        try:
+            claims.append(_checked(Claim(**_values(record))))
+        except BadClaims as error:
+            name = record.get("id", "without id")
+            raise BadClaims(f"claim {number} ({name}): {error}") from None
     for key in ("id", "claim"):
         for value, times in Counter(getattr(claim, key) for claim in claims).items():
-            if times > 1:
-                raise BadClaims(f"{key}: {value!r} occurs {times} times")
-    return claims
+            _require(times == 1, key, f"{value!r} occurs {times} times")
+    return tuple(claims)
 
 
-def load_shipped() -> tuple[Claim, ...]:
-    """Read claims.toml."""
-    return load((files("certify.audit") / "claims.toml").read_text(encoding="utf-8"))
-
-
-def _claim(number: int, record: dict[str, object]) -> Claim:
-    """Check one record, and return its claim."""
-    where = f"claim {number} ({record.get('id', 'without id')})"
-
-    def require(true: object, key: str, problem: str) -> None:
-        if not true:
-            raise BadClaims(f"{where}: {key}: {problem}")
-
-    for key in ("id", "place", "claim", "verdict"):
-        require(key in record, key, "is missing")
-    values: dict[str, Any] = {}
-    for key, value in record.items():
-        require(key in _KEYS, key, "is no key")
-        if key in _LISTS:
-            is_list = isinstance(value, list) and value and all(isinstance(v, str) for v in value)
-            require(is_list, key, "is not a list of strings")
-            values[key] = tuple(value) if isinstance(value, list) else ()
-        else:
-            is_text = isinstance(value, str) and value == " ".join(value.split()) != ""
-            require(is_text and str(value).isascii(), key, "is not one line of ASCII")
-            values[key] = value
-    values["answers"] = tuple(_answers(where, values.get("answers", ())))
-    claim = Claim(**values)
-    require(re.fullmatch(r"[a-z0-9]+(-[a-z0-9]+)*", claim.id), "id", "is not like-this-1")
-    require(claim.verdict in VERDICTS, "verdict", f"{claim.verdict!r} is none of {VERDICTS}")
-    for name in claim.theorems:
-        require(name in THEOREMS, "theorems", f"there is no theorem {name!r}")
-    for name in claim.checks:
-        require(name in CHECKS, "checks", f"there is no check {name!r}")
-    twice = [reason for reason, times in Counter(claim.computed).items() if times > 1]
-    require(not twice, "reasons", f"are given twice: {twice}")
-    for key, (needed, allowed) in _RULES.items():
-        present = bool(getattr(claim, key))
-        require(present or claim.verdict not in needed, key, f"is needed if {claim.verdict}")
-        require(not present or claim.verdict in allowed, key, f"is not for {claim.verdict}")
-    require(claim.weight in ("", *WEIGHTS), "weight", f"{claim.weight!r} is none of {WEIGHTS}")
-    return claim
+def _require(true: object, key: str, problem: str) -> None:
+    if not true:
+        raise BadClaims(f"{key}: {problem}")
 
 
 _LISTS = ("theorems", "answers", "checks")
-_KEYS = {field.name for field in fields(Claim)}
+_KEYS = {field.name: field.default is MISSING for field in fields(Claim)}
+"""Key -> whether every record has it."""
+
+
+def _values(record: Mapping[str, object]) -> dict[str, Any]:
+    """Return the fields of a claim, of the types that they should have."""
+    for key, needed in _KEYS.items():
+        _require(key in record or not needed, key, "is missing")
+    values: dict[str, Any] = {}
+    for key, value in record.items():
+        _require(key in _KEYS, key, "is no key")
+        texts: Any = value if key in _LISTS else [value]
+        _require(isinstance(texts, list) and texts, key, "is not a list of strings")
+        for text in texts:
+            good = isinstance(text, str) and text.isascii() and text == " ".join(text.split()) != ""
+            _require(good, key, f"{text!r} is not one line of ASCII")
+        values[key] = tuple(texts) if key in _LISTS else value
+    return values | {"answers": tuple(_answers(values.get("answers", ())))}
+
+
+def _answers(texts: Sequence[str]) -> Iterator[str]:
+    """Write "15_A 15_B convex = no" as "15_A convex = no", "15_B convex = no"."""
+    for text in texts:
+        match = re.fullmatch(r"((?:\w+ )+)(\w+) = (yes|no)", text)
+        names = match[1].split() if match else []
+        good = match and match[2] in QUESTIONS and set(names) <= set(PATTERN_NAMES)
+        _require(good, "answers", f"{text!r} is not like '15_A convex = no'")
+        yield from (text.replace(match[1], f"{name} ") for name in names if match)
+
+
 _RULES = {
     "computed": (COMPUTED, COMPUTED),
     "amendment": (("corrected", "strengthened"), ("corrected", "strengthened", "argued")),
@@ -190,14 +191,19 @@ _RULES = {
 """Key -> the verdicts that need it, and those that may have it."""
 
 
-def _answers(where: str, texts: Sequence[str]) -> Iterator[str]:
-    """Write "15_A 15_B convex = no" as "15_A convex = no", "15_B convex = no"."""
-    for text in texts:
-        *names, question, equals, answer = text.split() if text.count(" ") > 2 else [""] * 4
-        if not (
-            set(names) <= set(PATTERN_NAMES)
-            and question in QUESTIONS
-            and (equals, answer) in (("=", "yes"), ("=", "no"))
-        ):
-            raise BadClaims(f"{where}: answers: {text!r} is not like '15_A convex = no'")
-        yield from (f"{name} {question} = {answer}" for name in names)
+def _checked(claim: Claim) -> Claim:
+    """Return a claim whose names are known, and that has what its verdict needs."""
+    _require(re.fullmatch(r"[a-z0-9]+(-[a-z0-9]+)*", claim.id), "id", "is not like-this-1")
+    known = {"theorems": THEOREMS, "checks": CHECKS, "verdict": VERDICTS, "weight": ("", *WEIGHTS)}
+    for key, names in known.items():
+        value = getattr(claim, key)
+        for name in value if key in _LISTS else [value]:
+            _require(name in names, key, f"{name!r} is none of {', '.join(filter(None, names))}")
+    twice = [reason for reason, times in Counter(claim.computed).items() if times > 1]
+    _require(not twice, "reasons", f"are given twice: {', '.join(twice)}")
+    for key, (needed, allowed) in _RULES.items():
+        present = bool(getattr(claim, key))
+        what = "a theorem, an answer or a check" if key == "computed" else key
+        _require(present or claim.verdict not in needed, what, f"is needed if {claim.verdict}")
+        _require(not present or claim.verdict in allowed, what, f"is not for {claim.verdict}")
+    return claim
