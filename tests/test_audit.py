@@ -235,6 +235,24 @@ def types(kind: str, quadruple: tuple[int, ...]) -> Perturbation:
     return field(types=lambda i: {**i.types, quadruple: kind})
 
 
+def without_e_and_f(inputs: Inputs) -> Inputs:
+    """Turn the letters e and f into g, in print and in what was found: then two have no counts."""
+    new = {**dict(zip("abcdefg", "abcdefg", strict=True)), "e": "g", "f": "g"}
+    found = {n: replace(v, boundary=new[v.boundary]) for n, v in inputs.patterns.items()}
+    printed = {name: new[letter] for name, letter in inputs.letters.items()}
+    return inputs._replace(patterns=found, letters=printed)
+
+
+def from_eleven_tetrahedra(inputs: Inputs) -> Inputs:
+    """Let ten more patterns, of ten tetrahedra, have further cycles, and ten of fifteen not."""
+    for letter in "ABCDEFGHIJKLMNOPQRST":
+        inputs = as_if(f"10_{letter}", "15_K")(inputs)
+    for letter in "ABCDEFGHIJ":
+        inputs = as_if(f"15_{letter}", "5_A")(inputs)
+    return inputs
+
+
+CUBE_IN_FIVE = ((1, 2, 3, 6), (1, 3, 4, 8), (1, 3, 6, 8), (1, 5, 6, 8), (3, 6, 7, 8))
 CUBE_POINTS = tuple(CORNERS.values())
 ONE_EDGE = ((1, 2, 3, 4), (1, 2, 5, 6), (1, 2, 7, 8))
 """Twelve boundary triangles, but no ball."""
@@ -250,12 +268,15 @@ PERTURBED: dict[str, list[Perturbation]] = {
     ],
     "letters-are-seven": [
         field(triangulations_in_figure=lambda _: {5: 7, 8: 7}),
+        field(triangulations_in_figure=lambda _: {5: 4, 8: 8}),
         field(letters=lambda i: dict.fromkeys(i.letters, "a")),
     ],
     "text-names-the-underlined": [field(no_matroid=lambda i: (*i.no_matroid[1:], "12_A"))],
     "facets-are-those-of-a-cube": [field(facets=lambda i: ("1243", *i.facets[1:]))],
     "edge-36-is-a-diagonal": [
-        field(edges=lambda i: tuple("37" if edge == "36" else edge for edge in i.edges))
+        field(edges=lambda i: tuple("37" if edge == "36" else edge for edge in i.edges)),
+        field(edges=lambda i: (*i.edges, "37")),
+        field(edges=lambda i: (*i.edges, "13")),
     ],
     "boundaries-have-18-edges": [
         field(boundaries=lambda i: (*i.boundaries, frozenset(sorted(i.boundaries[0])[1:])))
@@ -279,7 +300,10 @@ PERTURBED: dict[str, list[Perturbation]] = {
         field(on_a_sphere=lambda i: (*i.on_a_sphere[:7], i.on_a_sphere[0])),
         field(on_a_sphere=lambda i: (*i.on_a_sphere[:7], tuple(2 * x for x in i.on_a_sphere[7]))),
     ],
-    "one-triangle-turns": [field(in_the_plane=lambda i: (i.in_the_plane[0],) * 2)],
+    "one-triangle-turns": [
+        field(in_the_plane=lambda i: (i.in_the_plane[0],) * 2),
+        field(in_the_plane=lambda i: (i.in_the_plane[0], (*i.in_the_plane[0][:3], (6, 0)))),
+    ],
     "table-3-adds-up": [field(meshes=lambda i: ((*i.meshes[0][:3], 10), *i.meshes[1:]))],
     "row-of-3000-points-is-wrong": [
         field(random_points=lambda i: ((*i.random_points[0][:2], 48), *i.random_points[1:])),
@@ -289,28 +313,46 @@ PERTURBED: dict[str, list[Perturbation]] = {
         field(meshes=lambda i: (*i.meshes[:11], (*i.meshes[11][:3], 10)))
     ],
     "meshes-have-fewer-than-random-points": [
-        field(meshes=lambda i: (*i.meshes[:11], ("Knuckle", 3_058_481, i.random_points[8][1], 105)))
+        field(
+            meshes=lambda i: (*i.meshes[:11], ("Knuckle", 3_058_481, i.random_points[8][1], 105))
+        ),
+        field(
+            meshes=lambda i: (
+                i.meshes[0],
+                ("Fusee", 11_975, i.random_points[1][1], 62),
+                *i.meshes[2:],
+            )
+        ),
     ],
     "letters-fit-in-one-way": [
         letters(_5_A="b"),
+        without_e_and_f,
         verdict("13_T", lambda _: {"boundary": "c"}),
     ],
     "letters-of-the-bold-are-right": [letters(_15_A="f")],
     "letters-of-two-underlined-are-wrong": [
         letters(_13_T="d", _13_W="g"),
         letters(_14_A="d"),
+        field(underlined=lambda i: i.underlined - {"13_T"}),
         verdict("13_T", lambda _: {"boundary": "c"}),
     ],
     "either-regular-or-diameter": [as_if("6_A", "7_A"), as_if("6_A", "5_A")],
-    "two-have-a-regular-tetrahedron": [as_if("5_A", "6_A"), as_if("5_A", "7_A")],
-    "duals-tell-five-apart": [as_if("6_A", "6_B"), as_if("6_A", "5_A")],
+    "two-have-a-regular-tetrahedron": [
+        as_if("5_A", "6_A"),
+        instances("5_A", CUBE_IN_FIVE, (CUBE_IN_FIVE[2],)),
+    ],
+    "duals-tell-five-apart": [as_if("6_A", "6_B"), as_if("6_A", "5_A"), as_if("5_A", "6_A")],
     "cells-of-cubes-are-interior-edges": [as_if("6_A", "15_A")],
     "slivers-leave-two-prisms": [
         as_if("7_B", "7_A"),
         field(types=lambda i: dict.fromkeys(i.types, "core diagonal")),
     ],
     "cones-close-the-balls": [instances("9_A", ONE_EDGE), instances("9_A", ((1, 2, 3, 6),))],
-    "cycles-need-not-be-edges": [as_if("15_A", "5_A"), as_if("5_A", "15_A")],
+    "cycles-need-not-be-edges": [
+        as_if("15_A", "5_A"),
+        as_if("5_A", "15_A"),
+        from_eleven_tetrahedra,
+    ],
     "coloured-graphs-tell-patterns-apart": [as_if("6_C", "6_D")],
     "isomorphism-needs-colours": [as_if("6_C", "6_D"), as_if("6_A", "6_B")],
     "balls-forget-facets": [as_if("15_A", "15_C"), as_if("15_K", "15_C"), as_if("6_A", "6_B")],

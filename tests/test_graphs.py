@@ -105,7 +105,10 @@ def test_a_cycle_around_no_interior_edge() -> None:
 def test_chordless_cycles_are_those_of_networkx(balls: dict[str, Tetrahedra]) -> None:
     for tetrahedra in balls.values():
         plain = decomposition(tetrahedra).plain
-        assert chordless_cycles(plain) == set(map(frozenset, nx.chordless_cycles(nx.Graph(plain))))
+        cycles = set(map(frozenset, nx.chordless_cycles(nx.Graph(plain))))
+        assert chordless_cycles(plain) == cycles
+        around = around_interior_edges(tetrahedra)
+        assert len(cycles.intersection(around.values())) == len(around)
 
 
 def test_chordless_cycles_of_small_graphs() -> None:
