@@ -60,10 +60,6 @@ TABLE_1 = {
 }
 """Row -> its entries for 5, 6, ..., 15 tetrahedra, and the printed sum."""
 
-INSTANCES = (2, 4, 8, 12, 16, 24, 48)
-"""The numbers of instances that a class may have (section 1)."""
-
-VERTICES = 8
 EDGES = ("12", "14", "15", "23", "26", "34", "36", "48", "56", "58", "67", "78")
 FACETS = ("1234", "1265", "1485", "2376", "3487", "5678")
 """The template of section 3. The list of edges is printed a second time, equal, in section 3.3."""
