@@ -1,6 +1,5 @@
 """The commands audit, spheres and build."""
 
-import json
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -8,9 +7,7 @@ from types import ModuleType, SimpleNamespace
 from typing import Any
 
 import pytest
-from click.testing import CliRunner
 
-from certify.cli import cli
 from tests.commands import CHECKOUT, assert_usage_error, run, run_json
 
 # audit
@@ -29,8 +26,30 @@ def test_audit_prints_every_finding() -> None:
     code, out, _ = run(CHECKOUT, "audit")
     _, record = run_json(CHECKOUT, "audit")
     assert code == 0
+    assert all(len(line) <= 80 for line in out.splitlines())
+    words = " ".join(out.split())
     for finding in record["findings"]:
-        assert f"{finding['verdict']}: {finding['id']} ({finding['place']})" in out
+        assert f": {finding['id']}\n    " in out
+        for text in (finding["place"], finding["claim"], finding["amendment"], *finding["reasons"]):
+            assert text in words
+    counts = ", ".join(f"{count} {verdict}" for verdict, count in record["summary"].items())
+    assert words.endswith(f"{len(record['findings'])} claims: {counts}")
+
+
+def test_audit_of_some_claims() -> None:
+    _, out, _ = run(CHECKOUT, "audit", "theorem-1", "figure-valid-15s")
+    assert out.startswith("confirmed: theorem-1\n")
+    assert "\ncorrected (mathematics): figure-valid-15s\n" in out
+    assert out.count("Claim: ") == 2
+    assert_usage_error(run(CHECKOUT, "audit", "theorem-9"), "unknown claim theorem-9")
+
+
+def test_audit_of_some_verdicts() -> None:
+    _, record = run_json(CHECKOUT, "audit", "--only", "corrected")
+    weights = [finding["weight"] for finding in record["findings"]]
+    assert len(weights) == record["summary"]["corrected"]
+    assert weights == sorted(weights, key=["mathematics", "table", "misprint", "wording"].index)
+    assert_usage_error(run(CHECKOUT, "audit", "--only", "wrong"), "unknown verdict wrong")
 
 
 def test_audit_decides_nothing_on_rejected_certificates(root: Path) -> None:
@@ -39,38 +58,36 @@ def test_audit_decides_nothing_on_rejected_certificates(root: Path) -> None:
     assert record["summary"]["not decided here"] > len(record["findings"]) / 2
     (smallest,) = (f for f in record["findings"] if f["id"] == "discussion-smallest")
     assert smallest["verdict"] == "not decided here"
+    assert "theorem valid-sizes" in smallest["failed"]
+    _, out, _ = run(root, "audit", "discussion-smallest")
+    assert "    Failed: theorem valid-sizes; 11_AD valid = no; " in out
 
 
 # spheres
 
 
-def fake_decomposition(agrees: bool) -> ModuleType:
-    def second_derivation(report: Callable[[str], None]) -> SimpleNamespace:
+def fake_derivation(agrees: bool) -> ModuleType:
+    def second_derivation(_: object, report: Callable[[str], None]) -> SimpleNamespace:
         report("looking")
-        findings = {"degree": SimpleNamespace(sentence="Four.", counterexamples=("x", "y"))}
-        return SimpleNamespace(
-            spheres=3, hexahedra={1, 2}, graphs=2, agrees=agrees, findings=findings
-        )
+        return SimpleNamespace(spheres=3, hexahedra={1, 2}, graphs=2, agrees=agrees)
 
-    module = ModuleType("certify.search.decomposition")
+    module = ModuleType("certify.opinions.derivation")
     module.__dict__["second_derivation"] = second_derivation
     return module
 
 
 @pytest.mark.parametrize("agrees", [True, False])
-def test_spheres_tells_what_it_found(monkeypatch: pytest.MonkeyPatch, agrees: bool) -> None:
-    name = "certify.search.decomposition"
-    monkeypatch.setitem(sys.modules, name, fake_decomposition(agrees))
-    result = CliRunner().invoke(cli, ["spheres"])
-    assert result.exit_code == (0 if agrees else 1)
-    assert result.stderr == "looking\n"
-    assert result.stdout.splitlines() == [
-        "false, 2 counterexamples: Four.",
-        f"{'ok' if agrees else 'not ok'}: 3 spheres with nine vertices, 2 classes of hexahedra, "
-        "2 of decomposition graphs",
-    ]
-    record = json.loads(CliRunner().invoke(cli, ["spheres", "--json"]).stdout)
-    assert (record["spheres"], record["agrees"]) == (3, agrees)
+def test_spheres_tells_what_it_found(
+    root: Path, monkeypatch: pytest.MonkeyPatch, agrees: bool
+) -> None:
+    monkeypatch.setitem(sys.modules, "certify.opinions.derivation", fake_derivation(agrees))
+    found = (
+        f"{'ok' if agrees else 'not ok'}: 3 spheres with nine vertices, 2 classes of hexahedra,\n"
+        "2 classes of decomposition graphs\n"
+    )
+    assert run(root, "spheres") == (0 if agrees else 1, found, "")
+    _, record = run_json(root, "spheres")
+    assert record == {"spheres": 3, "classes": 2, "graphs": 2, "agrees": agrees}
 
 
 # build

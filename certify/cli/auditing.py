@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -18,10 +17,12 @@ from certify.cli.common import (
     fail,
     jobs_option,
     json_option,
+    needing,
     print_json,
     print_wrapped,
     progress,
     root_option,
+    status,
 )
 
 if TYPE_CHECKING:
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
 
 
 @click.command(
-    epilog=examples("certify audit --only corrected", "certify audit convex-13 pattern-15-k")
+    epilog=examples("certify audit --only corrected", "certify audit convex-13 figure-valid-15s")
 )
 @click.argument("claims", nargs=-1, metavar="[ID...]")
 @click.option("--only", metavar="VERDICT", help="Print the claims with this verdict only.")
@@ -42,9 +43,9 @@ def audit(
     """Give every claim of the paper a verdict.
 
     Everything is checked first; a claim that rests on something rejected is not decided. With IDs,
-    only these claims are printed. Corrections are printed in the order of their weight.
+    only these claims are printed. With --only corrected, the weightiest corrections come first.
     """
-    from certify.audit import VERDICTS, summary
+    from certify.audit import VERDICTS, corrections, summary
     from certify.audit import audit as findings_of
     from certify.run import run
 
@@ -57,9 +58,10 @@ def audit(
     unknown = set(claims).difference(finding.id for finding in findings)
     if unknown:
         fail(f"unknown claim {min(unknown)}; certify audit lists them all", code=2)
+    in_order = corrections(findings) if only == "corrected" else findings
     chosen = [
         finding
-        for finding in findings
+        for finding in in_order
         if (not claims or finding.id in claims) and only in (None, finding.verdict)
     ]
     if as_json:
@@ -68,29 +70,56 @@ def audit(
     else:
         for fault in outcome.faults:
             click.echo(f"rejected: {fault}")
-        _print_findings(chosen)
+        for finding in chosen:
+            _print_finding(finding)
         counts = ", ".join(f"{number} {verdict}" for verdict, number in summary(findings).items())
         print_wrapped(f"{len(findings)} claims: {counts}", hanging="")
     exit_with(not outcome.faults)
 
 
-def _print_findings(findings: Sequence[Finding]) -> None:
-    for finding in findings:
-        click.echo(f"{finding.verdict}: {finding.id}")
-        print_wrapped(finding.place, indent="    ", hanging="")
-        print_wrapped(f"Claim: {finding.claim}", indent="    ")
-        if finding.amendment:
-            print_wrapped(f"Amended: {finding.amendment}", indent="    ")
-        print_wrapped(f"Reason: {'; '.join(finding.reasons)}", indent="    ")
-        click.echo()
+def _print_finding(finding: Finding) -> None:
+    weight = f" ({finding.weight})" if finding.weight else ""
+    click.echo(f"{finding.verdict}{weight}: {finding.id}")
+    for text in (
+        finding.place,
+        f"Claim: {finding.claim}",
+        finding.amendment and f"Amended: {finding.amendment}",
+        f"Reasons: {'; '.join(finding.reasons)}",
+        finding.failed and f"Failed: {'; '.join(finding.failed)}",
+    ):
+        if text:
+            print_wrapped(text, indent="    ")
+    click.echo()
 
 
 @click.command(epilog=examples("certify spheres"))
+@root_option
 @json_option
-def spheres(as_json: bool) -> None:
+def spheres(root: Path | None, as_json: bool) -> None:
     """Derive the 174 patterns the paper's way.
 
-    They come from the triangulations of the 3-sphere with nine vertices. This is a second opinion:
-    no theorem needs it.
+    They come from the triangulations of the 3-sphere with nine vertices, and are compared with
+    those that the kernel accepts. This is a second opinion: no theorem needs it.
     """
-    raise NotImplementedError
+    from certify.run import run
+
+    with needing("search"):
+        from certify.opinions.derivation import second_derivation
+    outcome = run(existing_root(root))
+    with status("looking for spheres") as report:
+        found = second_derivation(outcome, report)
+    record = {
+        "spheres": found.spheres,
+        "classes": len(found.hexahedra),
+        "graphs": found.graphs,
+        "agrees": found.agrees,
+    }
+    if as_json:
+        print_json(record)
+    else:
+        click.echo(
+            f"{'ok' if found.agrees else 'not ok'}: {found.spheres} spheres with nine vertices, "
+            f"{len(found.hexahedra)} classes of hexahedra,\n"
+            f"{found.graphs} classes of decomposition graphs"
+        )
+    exit_with(found.agrees)

@@ -184,6 +184,18 @@ def progress(what: str) -> Iterator[Callable[[int, int], None]]:
         yield show
 
 
+@contextmanager
+def status(what: str) -> Iterator[Callable[[str], None]]:
+    """Give a function to be told what is going on; a terminal shows the latest in one live line."""
+    if not sys.stderr.isatty():
+        yield lambda _message: None
+        return
+    from rich.console import Console
+
+    with Console(stderr=True).status(what) as live:
+        yield live.update
+
+
 def print_table(headings: Sequence[str], rows: Iterable[Sequence[object]], title: str = "") -> None:
     """Print a table, its first column left- and the others right-justified, and an empty line."""
     from rich import box

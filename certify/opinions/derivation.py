@@ -6,9 +6,9 @@ What the paper says of decomposition graphs on this road (section 3.3) is for th
 from dataclasses import dataclass
 
 from certify.graphs import Tetrahedra, classes, coloured
+from certify.kernel.theorems import Outcome
 from certify.kernel.triangulation import orbit
 from certify.opinions.spheres import Report, hexahedra, spheres
-from certify.search.enumeration import patterns
 
 
 @dataclass(frozen=True)
@@ -22,19 +22,22 @@ class SecondDerivation:
     graphs: int
     """How many classes of decomposition graphs these have."""
     agrees: bool
-    """Are they the patterns of the enumeration, each with a decomposition graph of its own?"""
+    """Are they the patterns that the kernel accepted, each with a graph of its own?"""
 
 
-def second_derivation(report: Report) -> SecondDerivation:
-    """Derive the classes of triangulated hexahedra from the 3-spheres with nine vertices."""
+def second_derivation(outcome: Outcome, report: Report) -> SecondDerivation:
+    """Derive the classes of triangulated hexahedra from the 3-spheres with nine vertices.
+
+    outcome: what the kernel found, to be compared with.
+    """
     nine_vertex_spheres = spheres(9, report)
     found = frozenset(min(orbit(tetrahedra)) for tetrahedra in hexahedra(nine_vertex_spheres))
     graphs = len(classes({str(tetrahedra): tetrahedra for tetrahedra in found}, coloured))
     report(f"{len(found)} classes of hexahedra, {graphs} of decomposition graphs")
-    enumerated = {min(orbit(pattern.tetrahedra)) for pattern in patterns()}
+    accepted = {min(verdict.instances) for verdict in outcome.verdicts if verdict.instances}
     return SecondDerivation(
         spheres=len(nine_vertex_spheres),
         hexahedra=found,
         graphs=graphs,
-        agrees=found == enumerated and graphs == len(found),
+        agrees=found == accepted and graphs == len(found),
     )
