@@ -7,18 +7,22 @@ there is one); the projection is parallel, and each tetrahedron moves away from 
 """
 
 import colorsys
-import json
 import sys
 from collections.abc import Sequence
 from itertools import combinations
 from math import cos, hypot, radians, sin
 from pathlib import Path
 
+from certify.kernel.certificate import Yes, read_certificate
+from certify.kernel.check import check_pattern
+from certify.kernel.hexahedron import FACETS, Simplex
+
 Vector = tuple[float, ...]
 
-FACETS = ("1234", "1562", "1485", "2673", "3784", "5876")
+ROOT = Path(__file__).resolve().parents[1]
 SIZE = 380
 TILT = radians(20)
+DEFAULT_VIEW = (24, 1.0)
 VIEW = {"5_A": (24, 1.0), "15_E": (90, 1.9)}
 """Pattern -> how far to turn it, in degrees, and how far apart to pull it; what looks good."""
 
@@ -51,17 +55,22 @@ def turned(point: Vector, degrees: float) -> Vector:
     return right, z * cos(TILT) + away * sin(TILT), z * sin(TILT) - away * cos(TILT)
 
 
-def certificate(pattern: str) -> tuple[list[Vector], list[list[int]]]:
-    """Return the points, centred and scaled to a radius of one, and the tetrahedra."""
-    path = Path(__file__).resolve().parents[1] / "certificates" / f"{pattern}.json"
-    record = json.loads(path.read_text())
-    yes = [record[question] for question in ("realizable", "convex", "valid")]
-    raw = [answer["points"] for answer in yes if answer["answer"] == "yes"][-1]
-    points = [turned(point, VIEW.get(pattern, (24, 1))[0]) for point in raw]
+def certificate(pattern: str) -> tuple[list[Vector], Sequence[Simplex]]:
+    """Return the points, centred and scaled to a radius of one, and the tetrahedra.
+
+    Only what the kernel accepts is drawn.
+    """
+    verdict = check_pattern(ROOT, pattern)
+    if verdict.fault is not None:
+        sys.exit(f"rejected: {verdict.fault}")
+    accepted = read_certificate(ROOT / "certificates" / f"{pattern}.json")
+    answers = [answer for answer in accepted.answers.values() if isinstance(answer, Yes)]
+    turn, _ = VIEW.get(pattern, DEFAULT_VIEW)
+    points = [turned(tuple(map(float, point)), turn) for point in answers[-1].points]
     middle = centre(points)
     points = [minus(point, middle) for point in points]
     radius = max(hypot(*point) for point in points)
-    return [tuple(x / radius for x in point) for point in points], record["tetrahedra"]
+    return [tuple(x / radius for x in point) for point in points], accepted.tetrahedra
 
 
 def place(point: Vector, column: float, row: float, scale: float) -> str:
@@ -77,11 +86,10 @@ def shade(hue: float, normal: Vector) -> str:
     return f"#{round(255 * red):02x}{round(255 * green):02x}{round(255 * blue):02x}"
 
 
-def whole(points: list[Vector], tetrahedra: list[list[int]], row: int) -> list[str]:
+def whole(points: list[Vector], tetrahedra: Sequence[Simplex], row: int) -> list[str]:
     """Draw the edges, those of the hexahedron's boundary in front of the others."""
-    quads = [[int(v) for v in facet] for facet in FACETS]
-    frame = {frozenset((q[i - 1], q[i])) for q in quads for i in range(4)}
-    diagonals = {frozenset(pair) for q in quads for pair in ((q[0], q[2]), (q[1], q[3]))}
+    frame = {frozenset((q[i - 1], q[i])) for q in FACETS for i in range(4)}
+    diagonals = {frozenset(pair) for q in FACETS for pair in ((q[0], q[2]), (q[1], q[3]))}
     edges = {frozenset(edge) for t in tetrahedra for edge in combinations(t, 2)}
     styles = (
         (edges - frame - diagonals, "inner"),
@@ -101,7 +109,7 @@ def whole(points: list[Vector], tetrahedra: list[list[int]], row: int) -> list[s
     return lines
 
 
-def apart(points: list[Vector], tetrahedra: list[list[int]], row: int, by: float) -> list[str]:
+def apart(points: list[Vector], tetrahedra: Sequence[Simplex], row: int, by: float) -> list[str]:
     """Draw the tetrahedra, each moved away from the centre, the farthest first."""
     pieces = []
     for number, tetrahedron in enumerate(tetrahedra):
@@ -128,7 +136,7 @@ def main(patterns: list[str]) -> None:
     for row, pattern in enumerate(patterns):
         points, tetrahedra = certificate(pattern)
         body += whole(points, tetrahedra, row)
-        body += apart(points, tetrahedra, row, VIEW.get(pattern, (24, 1))[1])
+        body += apart(points, tetrahedra, row, VIEW.get(pattern, DEFAULT_VIEW)[1])
         body.append(f'<text class="name" x="34" y="{row * SIZE + 40}">{pattern}</text>')
     style = (
         "polyline{fill:none;stroke-linecap:round}.edge{stroke:#1c2430;stroke-width:2.6}"

@@ -291,6 +291,12 @@ def test_the_map_shows_what_there_is() -> None:
     assert [path.name for path in kernel if path not in shown] == []
 
 
+def test_the_picture_is_what_its_program_draws(copy: Path) -> None:
+    code, output = run(copy, sys.executable, "docs/picture.py", "5_A", "15_E")
+    assert code == 0, output[-2000:]
+    assert output == (ROOT / "docs" / "picture.svg").read_text()
+
+
 # Tables.
 
 
