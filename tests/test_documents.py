@@ -28,9 +28,9 @@ from pathlib import Path
 import pytest
 from _pytest.mark import ParameterSet
 
-from certify.kernel.certificate import Certificate, No
+from certify.kernel.certificate import Certificate, No, Yes
 from certify.kernel.check import refuted_formula
-from certify.kernel.chirotope import QUADRUPLES
+from certify.kernel.chirotope import QUADRUPLES, determinant, integral
 from certify.kernel.orientations import exclusive, grassmann_pluecker, no_overlap, oriented
 from certify.kernel.triangulation import label, orientation
 from certify.kernel.validity import corners, edges, sections
@@ -302,15 +302,15 @@ def test_the_picture_is_what_its_program_draws(copy: Path) -> None:
 
 
 def rows(document: str, heading: str) -> list[list[str]]:
-    """Return the cells of the first table below a heading, or below a comment, without its top."""
-    text = (ROOT / document).read_text().partition(f"\n{heading}\n")[2]
+    """Return the cells of the first table behind some words, without its top."""
+    text = (ROOT / document).read_text().partition(heading)[2]
     table = re.search(r"(?:^\|.*\n)+", text, flags=re.MULTILINE)
     assert table is not None
     lines = table[0].splitlines()[2:]
     return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
 
 
-CLAIMS = "## 9 From each claim to the command that replays it"
+CLAIMS = "\n## 9 From each claim to the command that replays it"
 QUICK = [
     command
     for command in sorted(
@@ -400,3 +400,33 @@ def test_the_families_end_where_format_says(certificates: dict[str, Certificate]
         "FORMAT.md", "The formula has 22 829 clauses. The families end at these numbers:"
     )
     assert list(map(int, ends)) == list(accumulate(len(list(family)) for family in families))
+
+
+def test_the_yes_is_computed_rightly(certificates: dict[str, Certificate]) -> None:
+    """Every determinant that FORMAT prints of 5_A, and the circuit that it takes from them."""
+    certificate = certificates["5_A"]
+    answer = certificate.answers["realizable"]
+    assert isinstance(answer, Yes)
+    points = integral(answer.points)
+
+    def edges_of(quadruple: str) -> list[list[int]]:
+        first, *others = (points[int(vertex) - 1] for vertex in quadruple)
+        return [[x - y for x, y in zip(other, first, strict=True)] for other in others]
+
+    shown = rows("FORMAT.md", "**Determinants.** With the rows *b*−*a*, *c*−*a*, *d*−*a*:")
+    assert [name for name, *_ in shown] == list(map(label, certificate.tetrahedra))
+    for name, edges_shown, value, sign in shown:
+        vectors = edges_of(name)
+        assert edges_shown.replace("−", "-") == " ".join(
+            f"({','.join(map(str, vector))})" for vector in vectors
+        )
+        assert int(value.replace("−", "-")) == determinant(vectors)
+        must_be = orientation(certificate.tetrahedra)[tuple(map(int, name))]
+        assert sign == {1: "positive", -1: "negative"}[must_be]
+    quadruples, values, coefficients = (
+        row[1:] for row in rows("FORMAT.md", "quintuples, and each is treated as this one, 12368.")
+    )
+    computed = [determinant(edges_of(quadruple)) for quadruple in quadruples]
+    assert [int(value.replace("−", "-")) for value in values] == computed
+    dependent = [(-1) ** i * value for i, value in enumerate(computed)]
+    assert [int(value.replace("−", "-")) for value in coefficients] == dependent
