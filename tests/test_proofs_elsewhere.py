@@ -6,11 +6,12 @@ platforms only. The other is below: propagation by counting, where the kernel fo
 
 import importlib.util
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Container, Iterable, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
 import pytest
+from _pytest.mark import ParameterSet
 from pysat.solvers import Solver
 
 from certify.kernel.certificate import QUESTIONS, Certificate, No
@@ -30,6 +31,11 @@ needs_drup = pytest.mark.skipif(
 )
 every_question = pytest.mark.parametrize("question", QUESTIONS)
 every_boundary = pytest.mark.parametrize("letter", BOUNDARY_TYPES)
+
+
+def except_slow(values: Iterable[str], slow: Container[str]) -> list[str | ParameterSet]:
+    """Return the parameters, some of them marked as slow."""
+    return [pytest.param(v, marks=pytest.mark.slow) if v in slow else v for v in values]
 
 
 class Proved(NamedTuple):
@@ -200,16 +206,14 @@ def drup_accepts(formula: Iterable[Clause], lemmas: Iterable[Clause]) -> bool:
 
 
 @needs_drup
-@every_question
+@pytest.mark.parametrize("question", except_slow(QUESTIONS, ("convex", "valid")))
 def test_drup_accepts_refutations(question: str, refutations: dict[str, list[Proved]]) -> None:
     for proved in refutations[question]:
         assert drup_accepts(proved.formula, proved.lemmas), proved.path
 
 
 @needs_drup
-@pytest.mark.parametrize(
-    "letter", [*"abde", *(pytest.param(letter, marks=pytest.mark.slow) for letter in "cfg")]
-)
+@pytest.mark.parametrize("letter", except_slow(BOUNDARY_TYPES, "cdefg"))
 def test_drup_accepts_completeness(letter: str, completions: dict[str, Proved]) -> None:
     """Its propagation is naive, so it gets that part of the formula that the hints name."""
     assert drup_accepts(completions[letter].core, completions[letter].lemmas)
@@ -239,6 +243,7 @@ def test_proofs_of_satisfiable_formulas_are_rejected(refutations: dict[str, list
 
 
 @needs_drup
+@pytest.mark.slow
 def test_spoiled_proofs_are_rejected(refutations: dict[str, list[Proved]]) -> None:
     """Of a proof remains the last lemma alone; or one lemma is left out, or a literal negated.
 
