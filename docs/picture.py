@@ -13,7 +13,7 @@ from itertools import combinations
 from math import cos, hypot, radians, sin
 from pathlib import Path
 
-from certify.kernel.certificate import Yes, read_certificate
+from certify.kernel.certificate import Yes
 from certify.kernel.check import check_pattern
 from certify.kernel.hexahedron import FACETS, Simplex
 
@@ -63,7 +63,8 @@ def certificate(pattern: str) -> tuple[list[Vector], Sequence[Simplex]]:
     verdict = check_pattern(ROOT, pattern)
     if verdict.fault is not None:
         sys.exit(f"rejected: {verdict.fault}")
-    accepted = read_certificate(ROOT / "certificates" / f"{pattern}.json")
+    accepted = verdict.certificate
+    assert accepted is not None
     answers = [answer for answer in accepted.answers.values() if isinstance(answer, Yes)]
     turn, _ = VIEW.get(pattern, DEFAULT_VIEW)
     points = [turned(tuple(map(float, point)), turn) for point in answers[-1].points]

@@ -1,4 +1,4 @@
-"""What README, CHECKING and FORMAT show is run, word for word, and the output is compared.
+"""What the documents show is run, word for word, and the output is compared.
 
 A fenced block is of one of these kinds; HTML comments right above it say more.
 
@@ -28,15 +28,17 @@ from pathlib import Path
 import pytest
 from _pytest.mark import ParameterSet
 
+from certify.audit import audit, summary
 from certify.kernel.certificate import Certificate, No, Yes
 from certify.kernel.check import refuted_formula
 from certify.kernel.chirotope import QUADRUPLES, determinant, integral
 from certify.kernel.orientations import exclusive, grassmann_pluecker, no_overlap, oriented
+from certify.kernel.theorems import Outcome
 from certify.kernel.triangulation import label, orientation
 from certify.kernel.validity import corners, edges, sections
 
 ROOT = Path(__file__).resolve().parents[1]
-DOCUMENTS = ("README.md", "CHECKING.md", "FORMAT.md")
+DOCUMENTS = ("README.md", "CHECKING.md", "FORMAT.md", "docs/API.md")
 COPIED = ("certify", "certificates", "proofs", "docs", "benchmarks", "*.md", "*.toml", "LICENSE")
 RUN = ("sh", "console", "python", "pycon")
 FILES = ("cnf", "lrat")
@@ -290,6 +292,16 @@ def test_the_map_shows_what_there_is() -> None:
     assert sorted(unshown) == []
     kernel = [path for path in (ROOT / "certify" / "kernel").glob("*.py") if path.name[0] != "_"]
     assert [path.name for path in kernel if path not in shown] == []
+
+
+@pytest.mark.parametrize("document", ["README.md", "CHECKING.md"])
+def test_counts_of_the_audit_are_those_of_the_audit(document: str, outcome: Outcome) -> None:
+    text = (ROOT / document).read_text().replace("one is illustrated", "1 is illustrated")
+    counts = summary(audit(outcome))
+    numbers = [sum(counts.values()), *counts.values()]
+    (paragraph,) = (p for p in text.split("\n\n") if f" {numbers[0]} claims" in p)
+    sentence = paragraph[paragraph.index(f" {numbers[0]} claims") :]
+    assert [int(n) for n in re.findall(r"\b\d+\b", sentence)][: len(numbers)] == numbers
 
 
 def test_the_picture_is_what_its_program_draws(copy: Path) -> None:
