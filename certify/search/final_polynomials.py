@@ -78,13 +78,15 @@ def final_polynomial(signs: Mapping[Simplex, int]) -> FinalPolynomial | None:
 
     Bokowski and Richter 1990: multipliers x >= 0 of the inequalities such that every determinant
     cancels and some strict inequality counts. A basic solution has linearly independent columns,
-    so its support determines it and it can be made exact.
+    so its support determines it and it can be made exact. The inequalities cost different amounts,
+    drawn at random: the cheapest solution is then the only one, whatever rounding errors do.
     """
     candidates = list(inequalities(signs))
     exponents = np.array([exponent_vector(candidate) for candidate in candidates]).T
     strict = np.array([candidate.strict for candidate in candidates], dtype=float)
     x = cp.Variable(len(candidates), nonneg=True)
-    problem = cp.Problem(cp.Minimize(cp.sum(x)), [exponents @ x == 0, strict @ x == 1])
+    costs = np.random.default_rng(0).integers(100, 1000, len(candidates))
+    problem = cp.Problem(cp.Minimize(costs @ x), [exponents @ x == 0, strict @ x == 1])
     problem.solve(solver=cp.SCIPY, scipy_options={"method": "highs-ds"})
     if x.value is None:
         return None
