@@ -10,7 +10,7 @@ from certify.kernel.orientations import Clause
 from certify.search.enumeration import SOLVER
 
 ROUNDS = 8
-"""How often a proof is looked for again in the core of the last one, as long as it shrinks."""
+"""Proofs that are looked for at most, each in the core of the one before while that shrinks."""
 
 
 class Step(NamedTuple):
@@ -87,7 +87,7 @@ def _solve(formula: Sequence[Clause]) -> list[Clause] | None:
 
 
 def _renumber(steps: Sequence[Step], names: dict[int, int], last: int) -> list[Step]:
-    """Give clauses of the formula the numbers in ``names``, and lemmas those after ``last``."""
+    """Return the steps with new numbers: ``names`` for the formula's, after ``last`` for lemmas."""
     for name, step in enumerate(steps, start=last + 1):
         names[step.number] = name
     return [
@@ -97,6 +97,7 @@ def _renumber(steps: Sequence[Step], names: dict[int, int], last: int) -> list[S
 
 
 def _length(steps: Sequence[Step]) -> int:
+    """Return the number of all hints."""
     return sum(len(step.hints) for step in steps)
 
 
@@ -131,7 +132,7 @@ class Propagator:
     def _propagate(
         self, reason: dict[int, int], trail: list[int], before: int, preferred: set[int]
     ) -> int:
-        """Extend the trail until a clause is false, and return its number."""
+        """Return the number of the first clause to become false as the trail is extended."""
         head = {True: 0, False: 0}
         while head[False] < len(trail):
             core = head[True] < len(trail)
