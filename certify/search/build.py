@@ -51,9 +51,10 @@ def build(root: Path, jobs: int, report: Report) -> None:
     """Put certificates/ and proofs/, found anew, below ``root``, which is created if need be.
 
     The two folders replace old ones as a whole and at the end, so that an interrupted build
-    changes nothing. Nothing that is found depends on the number of jobs or on the machine: every
-    pattern has a random generator of its own, seeded by its position; no time limit is used; and
-    points are searched in integers.
+    changes nothing. What is found depends on the code and the libraries' versions, not on the
+    number of jobs or on how a machine rounds: every pattern has a random generator of its own,
+    seeded by its position; there is no time limit; points are sought in integers; and linear
+    programs have one cheapest solution.
     """
     root.mkdir(parents=True, exist_ok=True)
     with TemporaryDirectory(dir=root, prefix=".build-") as name:
