@@ -56,7 +56,7 @@ class Propagator:
     def _propagate(
         self, reason: dict[int, int], trail: list[int], before: int, preferred: Collection[int]
     ) -> int:
-        """Extend the trail until a clause is false, and return its number."""
+        """Return the number of the first clause to become false as the trail is extended."""
         head = {True: 0, False: 0}
         while head[False] < len(trail):
             core = head[True] < len(trail)

@@ -10,8 +10,8 @@ from signal import SIG_IGN, SIGINT, signal
 from certify.kernel.check import Verdict
 from certify.kernel.theorems import Outcome, check_all
 
-Progress = Callable[[int, int], object]
-"""Told how many of how many patterns have been checked."""
+Report = Callable[[str, int, int], object]
+"""Told what is being done, how much of it is done, and how much there is."""
 
 
 def printable(text: str) -> str:
@@ -19,7 +19,7 @@ def printable(text: str) -> str:
     return "".join(char if char.isprintable() else ascii(char)[1:-1] for char in text)
 
 
-def run(root: Path, jobs: int = 1, progress: Progress | None = None) -> Outcome:
+def run(root: Path, jobs: int = 1, report: Report | None = None) -> Outcome:
     """Return the kernel's outcome for a root, from ``jobs`` processes.
 
     Raises:
@@ -30,8 +30,8 @@ def run(root: Path, jobs: int = 1, progress: Progress | None = None) -> Outcome:
         with _mapping(min(jobs, len(patterns))) as mapped:
             for done, verdict in enumerate(mapped(check, patterns), start=1):
                 yield verdict
-                if progress:
-                    progress(done, len(patterns))
+                if report:
+                    report("checking", done, len(patterns))
 
     try:
         return check_all(root, apply)

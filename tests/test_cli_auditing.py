@@ -94,9 +94,9 @@ def test_spheres_tells_what_it_found(
 
 
 def fake_build(calls: list[dict[str, Any]]) -> ModuleType:
-    def build(root: Path, jobs: int, report: Callable[[str], None]) -> None:
+    def build(root: Path, jobs: int, report: Callable[[str, int, int], None]) -> None:
         calls.append({"root": root, "jobs": jobs})
-        report("half\x1b done")
+        report("half done", 1, 2)
 
     module = ModuleType("certify.search.build")
     module.__dict__["build"] = build
@@ -106,19 +106,20 @@ def fake_build(calls: list[dict[str, Any]]) -> ModuleType:
 def test_build_calls_the_search(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     calls: list[dict[str, Any]] = []
     monkeypatch.setitem(sys.modules, "certify.search.build", fake_build(calls))
-    outcome = run(tmp_path, "build", "--jobs", "3")
-    assert outcome == (0, "", "half\\x1b done\n")
-    assert run(tmp_path, "build")[0] == 0
-    assert calls == [
-        {"root": tmp_path, "jobs": 3},
-        {"root": tmp_path, "jobs": 1},
-    ]
+    code, out, err = run(tmp_path, "build", "-j", "3")
+    assert (code, err) == (0, "")
+    assert out == f"174 certificates written to {tmp_path}; certify check-all checks them\n"
+    assert run(tmp_path / "new", "build")[0] == 0
+    assert calls == [{"root": tmp_path, "jobs": 3}, {"root": tmp_path / "new", "jobs": 1}]
 
 
 def test_build_without_the_extra(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "certify.search.build", None)
-    assert_usage_error(run(tmp_path, "build"), "install certify[search]")
+    monkeypatch.delitem(sys.modules, "certify.search.build", raising=False)
+    monkeypatch.setitem(sys.modules, "joblib", None)
+    message = "joblib is not installed: run pip install '.[search]' in a checkout, or pip install"
+    assert_usage_error(run(tmp_path, "build"), message)
 
 
 def test_build_needs_a_folder(tmp_path: Path) -> None:
-    assert_usage_error(run(tmp_path / "nowhere", "build"), "nowhere is not a folder")
+    (tmp_path / "file").touch()
+    assert_usage_error(run(tmp_path / "file", "build"), "file")

@@ -1,16 +1,23 @@
 """What is found is deterministic and accepted by the kernel; names agree with the paper's."""
 
+import os
+import subprocess
+import sys
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from fractions import Fraction
 from itertools import combinations
 from pathlib import Path
+from typing import Any
 
+import cvxpy as cp
 import numpy as np
 import pytest
 from hypothesis import given
 
-from certify import paper
+from certify import load, paper
 from certify.kernel.certificate import QUESTIONS, Certificate, No, Yes
+from certify.kernel.check import FORMULAS as QUESTIONS_AS_FORMULAS
 from certify.kernel.check import Verdict, check_pattern
 from certify.kernel.chirotope import chirotope, integral
 from certify.kernel.embedding import NotRealized, require_convex_position, require_realization
@@ -19,6 +26,7 @@ from certify.kernel.jacobian import bernstein_coefficients
 from certify.kernel.orientations import Clause
 from certify.kernel.refutation import excluded_signs, replay
 from certify.kernel.triangulation import boundary_diagonals, orbit, orientation
+from certify.mesh.quality import scaled_jacobians
 from certify.search import build
 from certify.search.build import Finding, Refutation, investigate, status, write
 from certify.search.enumeration import Pattern, patterns
@@ -27,21 +35,19 @@ from certify.search.final_polynomials import (
     refute_with_polynomials,
     sign_vector,
 )
-from certify.search.margins import Array, bernstein, determinants, distances_beyond
 from certify.search.naming import amended_letters, assign_names
 from certify.search.placement import place
 from certify.search.refutations import Step, lrat, model, refute, trim
-from certify.search.sieve import QUADS, Sieve
+from certify.search.sieve import Array, Sieve, shape
 from tests.geometry import (
     CUBE,
     CUBE_TRIANGULATIONS,
-    PLACEMENTS,
     Placement,
     exact,
     examples,
+    near,
     signs_of,
     true_literals,
-    volume,
 )
 from tests.test_refutation import FORMULAS, SIGNS, UNSATISFIABLE, Formula, satisfiable
 from tests.test_validity import determinants as volumes
@@ -203,6 +209,27 @@ def test_signs_that_no_points_have_are_excluded() -> None:
     assert true_literals(SIGNS).isdisjoint(excluded_signs(polynomial))
 
 
+def test_final_polynomials_do_not_depend_on_the_solver(
+    certificates: Certificates, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each is the only cheapest one: an interior-point method comes to the shipped ones as well."""
+    solve = cp.Problem.solve
+
+    def solve_otherwise(problem: cp.Problem, **_: object) -> None:
+        solve(problem, solver=cp.SCIPY, scipy_options={"method": "highs-ipm"})
+
+    monkeypatch.setattr(cp.Problem, "solve", solve_otherwise)
+    found = 0
+    for certificate in certificates.values():
+        for question, answer in certificate.answers.items():
+            if isinstance(answer, No) and answer.final_polynomials:
+                formula = QUESTIONS_AS_FORMULAS[question](orientation(certificate.tetrahedra))
+                _, polynomials = refute_with_polynomials(formula) or ([], [])
+                assert polynomials == list(answer.final_polynomials)
+                found += len(polynomials)
+    assert found == 5
+
+
 @pytest.mark.parametrize(
     "placement",
     [
@@ -243,14 +270,18 @@ def refusal(test: Callable[..., object], *args: object) -> str | None:
     return None
 
 
+def points_of(certificate: Certificate, question: str) -> Array:
+    (points,) = {a.points for a in [certificate.answers[question]] if isinstance(a, Yes)}
+    return np.array(integral(points))
+
+
 def samples(certificate: Certificate, rng: np.random.Generator) -> Array:
     """Return a witness, what is near to it, degenerate placements, and some with the right signs.
 
     Among the last, tetrahedra often overlap, and on the small grid the Jacobian often vanishes.
     """
     signs = orientation(certificate.tetrahedra)
-    (points,) = {a.points for a in [certificate.answers["realizable"]] if isinstance(a, Yes)}
-    witness = np.array(integral(points))
+    witness = points_of(certificate, "realizable")
     oriented = []
     for width in (3, 20):
         anything = rng.integers(0, width, (60_000, 8, 3))
@@ -291,7 +322,7 @@ def test_sieve_lets_pass_what_the_kernel_accepts(
                 reason = reason or refusal(require_convex_position, found)
             if valid and min(bernstein_coefficients(points).values()) <= 0:
                 reason = reason or "invalid"
-            assert len(sieve(placement[None])) == (reason is None)
+            assert (sieve.failures(placement[None]) == 0) == (reason is None)
             outcomes[(reason or "good").partition(" ")[0]] += 1
     assert outcomes["good"] > 20
     assert outcomes["tetrahedron"] > 20
@@ -300,35 +331,23 @@ def test_sieve_lets_pass_what_the_kernel_accepts(
     assert (outcomes["invalid"] > 5) == valid
 
 
-@examples(30)
-@given(PLACEMENTS)
-def test_margins_are_exact_on_integers(placement: Placement) -> None:
-    points = np.array(placement, dtype=float)
-    values, _ = determinants(points, QUADS)
-    assert values.tolist() == [volume(*(placement[v] for v in q)) for q in QUADS]
-    coefficients = bernstein_coefficients(exact(placement)).values()
-    assert np.allclose(8 * bernstein(points)[0], list(coefficients))
+@examples(100)
+@given(near(CUBE, 10, 4))
+def test_shape_is_the_square_of_the_least_scaled_jacobian(placement: Placement) -> None:
+    points = np.array(placement)
+    least = min(scaled_jacobians(exact(placement)))
+    assert float(shape(points)) == pytest.approx(least * abs(least))
 
 
-@pytest.mark.parametrize("seed", range(3))
-def test_margins_have_their_gradients(seed: int) -> None:
-    """Against difference quotients; all the functions are of degree at most two in one step."""
-    rng = np.random.default_rng(seed)
-    points, step = rng.normal(size=(8, 3)), rng.normal(size=(8, 3))
-    directions, turn = rng.normal(size=(8, 3)), rng.normal(size=(8, 3))
-    h = 1e-4
-
-    for function in (lambda p: determinants(p, QUADS), bernstein):
-        quotient = (function(points + h * step)[0] - function(points - h * step)[0]) / (2 * h)
-        assert np.allclose(np.tensordot(function(points)[1], step, 2), quotient, atol=1e-6)
-
-    beyond, slopes = distances_beyond(points, directions)
-    ahead, _ = distances_beyond(points + h * step, directions + h * turn)
-    back, _ = distances_beyond(points - h * step, directions - h * turn)
-    assert np.allclose(
-        slopes @ np.concatenate([step.ravel(), turn.ravel()]), (ahead - back) / (2 * h)
-    )
-    assert len(beyond) == 56
+def test_corners_that_do_not_exceed_the_bar_fail(certificates: Certificates) -> None:
+    certificate = certificates["13_A"]
+    points = points_of(certificate, "valid")
+    squares = [x * x for x in scaled_jacobians(exact(points.tolist()))]
+    sieve = Sieve(orientation(certificate.tetrahedra), convex=True, valid=True)
+    for bar in (Fraction(0), shape(points), Fraction(1, 2), Fraction(9, 10)):
+        sieve.bar = bar
+        expected = sum(square < bar + 1e-9 for square in squares)
+        assert sieve.failures(points[None]).tolist() == [expected]
 
 
 def test_what_has_no_valid_hexahedron_is_not_placed(certificates: Certificates) -> None:
@@ -351,10 +370,10 @@ def accepted(root: Path, name: str, pattern: Pattern, answers: dict[str, Finding
     return verdict
 
 
-def test_investigation_is_deterministic(tmp_path: Path) -> None:
+def test_the_cube_is_found(tmp_path: Path) -> None:
     pattern = Pattern("a", CUBE_TRIANGULATIONS["core"])
     answers = investigate(pattern, 1)
-    assert investigate(pattern, 1) == answers
+    assert answers["valid"] == [list(corner) for corner in CUBE]
     assert accepted(tmp_path, "5_A", pattern, answers).answers == dict.fromkeys(QUESTIONS, "yes")
 
 
@@ -373,6 +392,61 @@ def test_what_is_not_found_is_open(tmp_path: Path) -> None:
     assert verdict.answers == dict.fromkeys(QUESTIONS, "open")
 
 
+def investigate_again(names: Sequence[str], root: Path) -> None:
+    """Investigate these patterns of the shipped ones, and write what is found below the root."""
+    for folder in build.FOLDERS:
+        (root / folder).mkdir()
+    tetrahedra = {name: load(name).tetrahedra for name in names}
+    for seed, pattern in enumerate(patterns()):
+        for name in names:
+            if tetrahedra[name] == pattern.tetrahedra:
+                write(root, name, pattern, investigate(pattern, seed))
+
+
+def assert_shipped(root: Path, shipped: Path, files: int) -> None:
+    """Require that so many files below the root are the shipped ones, byte for byte."""
+    found = {path.relative_to(root): path.read_bytes() for path in root.glob("*/*")}
+    assert found == {path: (shipped / path).read_bytes() for path in found}
+    assert len(found) == files
+
+
+def test_what_is_shipped_is_found_again(tmp_path: Path, shipped: Path) -> None:
+    """Refutations, a coarse realization and two valid hexahedra."""
+    investigate_again(["6_A", "8_A", "13_T", "15_J"], tmp_path)
+    assert_shipped(tmp_path, shipped, 4 + 2 * 2 + 2 * 3)
+
+
+OLD = "X86_V3 X86_V4 AVX512_ICL"
+MACHINES = {
+    "one thread": {"OPENBLAS_NUM_THREADS": "1"},
+    "two threads": {"OPENBLAS_NUM_THREADS": "2"},
+    "an old processor": {"OPENBLAS_CORETYPE": "Prescott", "NPY_DISABLE_CPU_FEATURES": OLD},
+}
+"""What makes numpy and its BLAS compute otherwise."""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("machine", MACHINES)
+def test_what_is_found_does_not_depend_on_the_machine(
+    tmp_path: Path, shipped: Path, machine: str
+) -> None:
+    names = ["9_A", "11_AD", "13_A", "14_B", "15_D", "15_G"]
+    subprocess.run(
+        [sys.executable, "-c", AGAIN, str(tmp_path), *names],
+        cwd=shipped,
+        env=os.environ | MACHINES[machine],
+        check=True,
+    )
+    assert_shipped(tmp_path, shipped, len(names) + 2 + 2 * 2)
+
+
+AGAIN = """
+import pathlib, sys
+from tests.test_search import investigate_again
+investigate_again(sys.argv[2:], pathlib.Path(sys.argv[1]))
+"""
+
+
 def test_building_writes_what_is_shipped(
     tmp_path: Path,
     shipped: Path,
@@ -380,12 +454,12 @@ def test_building_writes_what_is_shipped(
     shipped_findings: dict[str, dict[str, Finding]],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """Byte for byte, once the same points and proofs are found; and it clears away all else."""
+    """Byte for byte, once the same is found; in a new folder, and in the place of an old one."""
     names = {certificate.tetrahedra: name for name, certificate in certificates.items()}
     proofs = {
         letter: steps_of(shipped / f"proofs/complete.{letter}.lrat") for letter in BOUNDARY_TYPES
     }
-    pending = iter(proofs.values())
+    pending: Iterator[list[Step]]
 
     def found_again(pattern: Pattern, seed: int) -> dict[str, Finding]:
         return shipped_findings[names[pattern.tetrahedra]]
@@ -395,14 +469,35 @@ def test_building_writes_what_is_shipped(
 
     monkeypatch.setattr(build, "investigate", found_again)
     monkeypatch.setattr(build, "refute", proved_again)
-    (tmp_path / "certificates").mkdir()
-    (tmp_path / "certificates" / "16_A.json").write_text("stale")
-    reports: list[str] = []
-    build.build(tmp_path, 1, reports.append)
-    for folder in ("certificates", "proofs"):
-        assert contents(tmp_path / folder) == contents(shipped / folder)
-    assert reports[-1] == "174 certificates written"
+    root = tmp_path / "new" / "folder"
+    once = [(build.INVESTIGATING, done, 174) for done in range(175)]
+    once += [(build.COMPLETING, done, 7) for done in range(8)]
+    reports: list[tuple[str, int, int]] = []
+    for builds in (1, 2):
+        pending = iter(proofs.values())
+        build.build(root, 1, lambda *line: reports.append(line))
+        assert reports == builds * once
+        assert {path.name for path in root.iterdir()} == set(build.FOLDERS)
+        for folder in build.FOLDERS:
+            assert contents(root / folder) == contents(shipped / folder)
+            (root / folder / "16_A.json").write_text("stale")
 
 
 def contents(folder: Path) -> dict[str, bytes]:
     return {path.name: path.read_bytes() for path in folder.iterdir()}
+
+
+def test_an_interrupted_build_changes_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(*_: Any) -> None:
+        raise KeyboardInterrupt
+
+    (tmp_path / "certificates").mkdir()
+    (tmp_path / "certificates" / "5_A.json").write_text("old")
+    monkeypatch.setattr(build, "write_completeness", interrupted)
+    monkeypatch.setattr(build, "write_patterns", lambda root, *_: (root / "proofs/x").touch())
+    with pytest.raises(KeyboardInterrupt):
+        build.build(tmp_path, 1, lambda *_: None)
+    assert {path.name for path in tmp_path.rglob("*")} == {"certificates", "5_A.json"}
+    assert contents(tmp_path / "certificates") == {"5_A.json": b"old"}

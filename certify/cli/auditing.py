@@ -52,7 +52,7 @@ def audit(
     folder = existing_root(root)
     if only is not None and only not in VERDICTS:
         fail(f"unknown verdict {only}; it must be one of: {', '.join(VERDICTS)}", code=2)
-    with progress("checking") as show:
+    with progress() as show:
         outcome = run(folder, jobs, show)
     findings = findings_of(outcome)
     unknown = set(claims).difference(finding.id for finding in findings)

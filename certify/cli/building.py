@@ -27,17 +27,16 @@ def build(jobs: int, root: Path | None) -> None:
     they are checked.
     """
     from certify.kernel.evidence import default_root
+    from certify.run import printable
 
     if root is None and default_root().name == "data":
         fail("an installed package keeps its certificates: give --root DIR", code=2)
     folder = default_root() if root is None else root
-    if folder.exists() and not folder.is_dir():
-        fail(f"{folder} is not a folder", code=2)
     with needing("search"):
         from certify.search.build import build as find
-    with progress("building") as show:
+    with progress() as show:
         find(folder, jobs, show)
-    click.echo(f"174 certificates written to {folder}; check them with certify check-all")
+    click.echo(printable(f"174 certificates written to {folder}; certify check-all checks them"))
 
 
 @click.command(epilog=examples('eval "$(certify completion bash)"'))

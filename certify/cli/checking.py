@@ -51,7 +51,7 @@ def check_all(jobs: int, root: Path | None, as_json: bool, junit: BufferedWriter
     from certify.run import run
 
     folder = existing_root(root)
-    with progress("checking") as show:
+    with progress() as show:
         outcome = run(folder, jobs, show)
     seconds = perf_counter() - start
     summary = report.summary(outcome, seconds)

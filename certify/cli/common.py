@@ -155,10 +155,13 @@ def verdict_line(verdict: Verdict) -> str:
 
 
 @contextmanager
-def progress(what: str) -> Iterator[Callable[[int, int], None]]:
-    """Give a function to be told "so many of so many"; it shows one live line on a terminal."""
+def progress() -> Iterator[Callable[[str, int, int], None]]:
+    """Give a function to be told what is done, and how much of how much.
+
+    It shows one live line on a terminal, and nothing elsewhere.
+    """
     if not sys.stderr.isatty():
-        yield lambda _done, _total: None
+        yield lambda _what, _done, _total: None
         return
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
@@ -174,12 +177,14 @@ def progress(what: str) -> Iterator[Callable[[int, int], None]]:
     with Progress(
         *columns, console=Console(stderr=True), transient=True, auto_refresh=False
     ) as live:
-        task = live.add_task(what, total=None, rate="")
+        task = live.add_task("", total=None, rate="")
 
-        def show(done: int, total: int) -> None:
-            elapsed = live.tasks[0].elapsed or 0
-            rate = f"{done / elapsed:.0f}/s" if elapsed and done > elapsed else ""
-            live.update(task, completed=done, total=total, rate=rate, refresh=True)
+        def show(what: str, done: int, total: int) -> None:
+            per_second = done / (live.tasks[0].elapsed or 1)
+            rate = f"{per_second:.0f}/s" if per_second >= 1 else f"{60 * per_second:.0f}/min"
+            live.update(
+                task, description=what, completed=done, total=total, rate=rate, refresh=True
+            )
 
         yield show
 

@@ -32,12 +32,8 @@ def simplex(vertices: tuple[int, ...]) -> Simplex:
 
 def sorted_with_sign(vertices: tuple[int, ...]) -> tuple[Simplex, int]:
     """Return the vertices in increasing order, and the sign of the permutation that sorts them."""
-    return simplex(vertices), (-1) ** inversions(vertices)
-
-
-def inversions(vertices: tuple[int, ...]) -> int:
-    """Return how many pairs are out of order: odd iff sorting them is an odd permutation."""
-    return sum(a > b for a, b in combinations(vertices, 2))
+    inversions = sum(a > b for a, b in combinations(vertices, 2))
+    return simplex(vertices), (-1) ** inversions
 
 
 def _symmetries() -> tuple[tuple[int, ...], ...]:

@@ -13,9 +13,13 @@ import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 from certify.kernel.hexahedron import Simplex, simplex, sorted_with_sign
 from certify.kernel.orientations import Clause, has_sign
+
+Brackets: TypeAlias = tuple[tuple[int, ...], tuple[int, ...]]
+"""Two determinants that are multiplied, each given by four vertices in some order."""
 
 _STEP = re.compile(
     r"([1-9][0-9]{0,8}) (?:(d )|((?:-?[1-9][0-9]{0,8} )*)0 )((?:[1-9][0-9]{0,8} )*)0", re.ASCII
@@ -112,16 +116,14 @@ def excluded_signs(polynomial: FinalPolynomial) -> Clause:
     """
     surplus: Counter[Simplex] = Counter()
     strict = False
-    for multiplier, (s, t, a, b, c, d) in polynomial.inequalities:
+    for multiplier, indices in polynomial.inequalities:
         if multiplier <= 0:
             raise NotRefuted(f"multiplier {multiplier} is not positive")
-        larger = ((s, t, a, b), (s, t, c, d))
-        smaller = ((s, t, a, c), (s, t, b, d))
-        rest = ((s, t, a, d), (s, t, b, c))
+        larger, smaller, rest = products(indices)
         sign = _product_sign(smaller, polynomial.signs)
         sign_rest = _product_sign(rest, polynomial.signs)
         if sign in (0, sign_rest):
-            raise NotRefuted(f"the signs do not imply the inequality of {(s, t, a, b, c, d)}")
+            raise NotRefuted(f"the signs do not imply the inequality of {indices}")
         strict = strict or sign_rest != 0
         for vertices in larger:
             surplus[simplex(vertices)] += multiplier
@@ -140,7 +142,17 @@ def excluded_signs(polynomial: FinalPolynomial) -> Clause:
     )
 
 
-def _product_sign(brackets: Sequence[tuple[int, ...]], signs: Mapping[Simplex, int]) -> int:
+def products(indices: tuple[int, ...]) -> tuple[Brackets, Brackets, Brackets]:
+    """Return the brackets of A, B and C, as above, for indices (s, t, a, b, c, d)."""
+    s, t, a, b, c, d = indices
+    return (
+        ((s, t, a, b), (s, t, c, d)),
+        ((s, t, a, c), (s, t, b, d)),
+        ((s, t, a, d), (s, t, b, c)),
+    )
+
+
+def _product_sign(brackets: Brackets, signs: Mapping[Simplex, int]) -> int:
     """Return the sign of a product of brackets; one zero factor is enough for zero."""
     factors = [sorted_with_sign(vertices) for vertices in brackets]
     if any(signs.get(quadruple) == 0 for quadruple, _ in factors):

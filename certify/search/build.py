@@ -1,9 +1,9 @@
-"""Find everything again: every pattern, its answers, its name, its certificate and its proofs."""
+"""Everything found again: all patterns, with answers, names, certificates and proofs."""
 
 import json
-from collections.abc import Callable
 from hashlib import sha256
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,13 +14,15 @@ from certify.kernel.check import (
     FORMULAS,
     check_pattern,
     completeness_formula,
-    completeness_proof,
+    instances_bounded_by,
 )
 from certify.kernel.chirotope import QUADRUPLES
+from certify.kernel.evidence import completeness_file
 from certify.kernel.hexahedron import BOUNDARY_TYPES
 from certify.kernel.orientations import convex_formula, has_sign
 from certify.kernel.refutation import FinalPolynomial
 from certify.kernel.triangulation import label, orbit, orientation
+from certify.run import Report
 from certify.search.enumeration import Pattern, patterns
 from certify.search.final_polynomials import refute_with_polynomials
 from certify.search.naming import assign_names
@@ -38,40 +40,60 @@ class Refutation(NamedTuple):
 Finding = list[list[int]] | Refutation | None
 """What was found for one question: points, or a refutation, or nothing."""
 
+INVESTIGATING = "investigating the patterns"
+COMPLETING = "proving that no pattern is missing"
+FOLDERS = ("certificates", "proofs")
 
-def build(root: Path, jobs: int, report: Callable[[str], None]) -> None:
-    """Write certificates/ and proofs/ below ``root`` anew; ``report`` is told what is going on.
 
-    The result is determined by the code and the libraries' versions: every pattern has a
-    random generator of its own, seeded by its position, and no time limit is used.
+def build(root: Path, jobs: int, report: Report) -> None:
+    """Put certificates/ and proofs/, found anew, below ``root``, which is created if need be.
+
+    The two folders replace old ones as a whole and at the end, so that an interrupted build
+    changes nothing. What is found depends on the code and the libraries' versions, not on the
+    number of jobs or on how a machine rounds: every pattern has a random generator of its own,
+    seeded by its position; there is no time limit; points are sought in integers; and linear
+    programs have one cheapest solution.
     """
-    report("enumerating the triangulations")
+    root.mkdir(parents=True, exist_ok=True)
+    with TemporaryDirectory(dir=root, prefix=".build-") as name:
+        scratch = Path(name)
+        for folder in FOLDERS:
+            (scratch / folder).mkdir()
+        write_patterns(scratch, jobs, report)
+        write_completeness(scratch, report)
+        for folder in FOLDERS:
+            if (root / folder).exists():
+                (root / folder).rename(scratch / f"old-{folder}")
+            (scratch / folder).rename(root / folder)
+
+
+def write_patterns(root: Path, jobs: int, report: Report) -> None:
+    """Find every pattern and its answers, and write its certificate and proofs."""
     found = patterns()
-    findings = []
+    findings: list[dict[str, Finding]] = []
     work = Parallel(n_jobs=jobs, return_as="generator")(
         delayed(investigate)(pattern, seed) for seed, pattern in enumerate(found)
     )
-    for number, answers in enumerate(work, start=1):
+    report(INVESTIGATING, 0, len(found))
+    for answers in work:
         findings.append(answers)
-        report(f"{number} of {len(found)} patterns investigated")
+        report(INVESTIGATING, len(findings), len(found))
     facts = [
         (len(pattern.tetrahedra), pattern.boundary, status(pattern, answers))
         for pattern, answers in zip(found, findings, strict=True)
     ]
-    for folder, endings in (("certificates", ["json"]), ("proofs", ["lrat", "drat"])):
-        (root / folder).mkdir(parents=True, exist_ok=True)
-        for ending in endings:
-            for stale in (root / folder).glob(f"*.{ending}"):
-                stale.unlink()
     for name, pattern, answers in zip(assign_names(facts), found, findings, strict=True):
         write(root, name, pattern, answers)
-    report("proving that no pattern is missing")
+
+
+def write_completeness(root: Path, report: Report) -> None:
+    """Write, for every boundary, the proof that no pattern is missing among those written."""
     verdicts = [check_pattern(root, name) for name in PATTERN_NAMES]
-    for letter in BOUNDARY_TYPES:
-        steps = refute(completeness_formula(letter, verdicts))
-        if steps:
-            write_proof(root / completeness_proof(letter), steps)
-    report(f"{len(found)} certificates written")
+    for done, letter in enumerate(BOUNDARY_TYPES):
+        report(COMPLETING, done, len(BOUNDARY_TYPES))
+        if steps := refute(completeness_formula(letter, instances_bounded_by(letter, verdicts))):
+            write_proof(root / completeness_file(letter), steps)
+    report(COMPLETING, len(BOUNDARY_TYPES), len(BOUNDARY_TYPES))
 
 
 def investigate(pattern: Pattern, seed: int) -> dict[str, Finding]:

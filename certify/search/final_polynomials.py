@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations, permutations
 from math import gcd, lcm, prod
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 import cvxpy as cp
 import numpy as np
@@ -13,12 +13,10 @@ from sympy import QQ
 from sympy.polys.matrices import DomainMatrix
 
 from certify.kernel.chirotope import QUADRUPLES
-from certify.kernel.hexahedron import VERTICES, Simplex, inversions, simplex
+from certify.kernel.hexahedron import VERTICES, Simplex, simplex, sorted_with_sign
 from certify.kernel.orientations import Clause, has_sign
-from certify.kernel.refutation import FinalPolynomial, excluded_signs
+from certify.kernel.refutation import Brackets, FinalPolynomial, excluded_signs, products
 from certify.search.refutations import Step, model, refute
-
-Brackets: TypeAlias = tuple[tuple[int, ...], tuple[int, ...]]
 
 
 class Inequality(NamedTuple):
@@ -57,20 +55,19 @@ def inequalities(signs: Mapping[Simplex, int]) -> Iterator[Inequality]:
     """Yield the inequalities that the three-term Grassmann-Pluecker relations imply."""
 
     def product(brackets: Brackets) -> int:
-        return prod(signs[simplex(b)] * (-1) ** inversions(b) for b in brackets)
+        factors = map(sorted_with_sign, brackets)
+        return prod(parity * signs[quadruple] for quadruple, parity in factors)
 
     for s in combinations(VERTICES, 2):
         for four in combinations([v for v in VERTICES if v not in s], 4):
             # The first of the four stays first: [sab][scd] is the same up to sign for
             # the other orders that keep the pair {ab, cd}.
             for b, c, d in permutations(four[1:]):
-                a = four[0]
-                larger = ((*s, a, b), (*s, c, d))
-                smaller = ((*s, a, c), (*s, b, d))
-                rest = ((*s, a, d), (*s, b, c))
+                indices = (*s, four[0], b, c, d)
+                larger, smaller, rest = products(indices)
                 sign, sign_rest = product(smaller), product(rest)
                 if sign not in (0, sign_rest):
-                    yield Inequality((*s, a, b, c, d), larger, smaller, rest, sign_rest != 0)
+                    yield Inequality(indices, larger, smaller, rest, sign_rest != 0)
 
 
 def final_polynomial(signs: Mapping[Simplex, int]) -> FinalPolynomial | None:
@@ -78,13 +75,15 @@ def final_polynomial(signs: Mapping[Simplex, int]) -> FinalPolynomial | None:
 
     Bokowski and Richter 1990: multipliers x >= 0 of the inequalities such that every determinant
     cancels and some strict inequality counts. A basic solution has linearly independent columns,
-    so its support determines it and it can be made exact.
+    so its support determines it and it can be made exact. The inequalities cost different amounts,
+    drawn at random: the cheapest solution is then the only one, whatever rounding errors do.
     """
     candidates = list(inequalities(signs))
     exponents = np.array([exponent_vector(candidate) for candidate in candidates]).T
     strict = np.array([candidate.strict for candidate in candidates], dtype=float)
     x = cp.Variable(len(candidates), nonneg=True)
-    problem = cp.Problem(cp.Minimize(cp.sum(x)), [exponents @ x == 0, strict @ x == 1])
+    costs = np.random.default_rng(0).integers(100, 1000, len(candidates))
+    problem = cp.Problem(cp.Minimize(costs @ x), [exponents @ x == 0, strict @ x == 1])
     problem.solve(solver=cp.SCIPY, scipy_options={"method": "highs-ds"})
     if x.value is None:
         return None

@@ -10,7 +10,7 @@ from certify.propagation import Propagator
 from certify.search.enumeration import SOLVER
 
 ROUNDS = 8
-"""How often a proof is looked for again in the core of the last one, as long as it shrinks."""
+"""Proofs that are looked for at most, each in the core of the one before while that shrinks."""
 
 
 class Step(NamedTuple):
@@ -87,7 +87,7 @@ def _solve(formula: Sequence[Clause]) -> list[Clause] | None:
 
 
 def _renumber(steps: Sequence[Step], names: dict[int, int], last: int) -> list[Step]:
-    """Give clauses of the formula the numbers in ``names``, and lemmas those after ``last``."""
+    """Return the steps with new numbers: ``names`` for the formula's, after ``last`` for lemmas."""
     for name, step in enumerate(steps, start=last + 1):
         names[step.number] = name
     return [
@@ -97,4 +97,5 @@ def _renumber(steps: Sequence[Step], names: dict[int, int], last: int) -> list[S
 
 
 def _length(steps: Sequence[Step]) -> int:
+    """Return the number of all hints."""
     return sum(len(step.hints) for step in steps)

@@ -1,85 +1,128 @@
-"""Exact selection of witnesses among many integer placements at once."""
+"""The kernel's tests on many integer placements at once: how many conditions does each fail?
+
+All arithmetic is on integers, in which numpy is exact and calls no BLAS: the counts are the same
+on every machine. Determinants fit into 32 bits as long as coordinates are at most 400 apart, the
+comparison of shapes into 64 bits on grids that are at most 20 wide.
+"""
 
 from collections.abc import Iterable, Mapping
-from itertools import combinations
+from fractions import Fraction
+from itertools import combinations, product
+from typing import Any, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from certify.kernel.chirotope import QUADRUPLES, QUINTUPLES, dependence
 from certify.kernel.hexahedron import CORNERS, VERTICES, Simplex
-from certify.kernel.validity import across
-from certify.search.margins import EDGES, WEIGHTS, Array
 
-QUADS: Array = np.array(QUADRUPLES) - 1
-_CORNER_EDGES: Array = np.array([[across(v, axis) for axis in range(3)] for v in VERTICES]) - 1
-_CORNER_SIGNS: Array = np.array([(-1) ** sum(corner) for corner in CORNERS.values()])
-
-
-class Sieve:
-    """The kernel's tests in 64-bit integers; validity by Bernstein coefficients, undivided."""
-
-    def __init__(self, orientation: Mapping[Simplex, int], convex: bool, valid: bool) -> None:
-        self.tetrahedra = np.array([QUADRUPLES.index(t) for t in orientation])
-        self.signs = np.array(list(orientation.values()))
-        self.forbidden_pair = np.zeros(256, dtype=bool)
-        self.forbidden_side = np.zeros(256, dtype=bool)
-        for tetrahedron in orientation:
-            for size in (1, 2, 3, 4):
-                for face in combinations(tetrahedron, size):
-                    self.forbidden_pair[_bits(face)] = True
-        if convex:
-            self.forbidden_side[[_bits((vertex,)) for vertex in VERTICES]] = True
-        self.valid = valid
-
-    def __call__(self, placements: Array) -> Array:
-        """Return those of the placements, shape (n, 8, 3), that are witnesses."""
-        placements = placements.astype(np.int64)
-        for step in (self._oriented, self._embedded, self._positive):
-            placements = placements[step(placements)]
-        return placements
-
-    def _oriented(self, placements: Array) -> Array:
-        values = _determinants(placements, QUADS[self.tetrahedra])
-        return np.asarray((values * self.signs > 0).all(axis=1))
-
-    def _embedded(self, placements: Array) -> Array:
-        chirotopes = np.sign(_determinants(placements, QUADS))
-        good = np.ones(len(placements), dtype=bool)
-        for terms in map(dependence, QUINTUPLES):
-            columns = [QUADRUPLES.index(quadruple) for _, quadruple, _ in terms]
-            values = chirotopes[:, columns] * np.array([sign for _, _, sign in terms])
-            bits = np.array([_bits((vertex,)) for vertex, _, _ in terms])
-            positive, negative = (values > 0) @ bits, (values < 0) @ bits
-            good &= ~(self.forbidden_pair[positive] & self.forbidden_pair[negative])
-            good &= ~(self.forbidden_side[positive] | self.forbidden_side[negative])
-        return good
-
-    def _positive(self, placements: Array) -> Array:
-        if not self.valid:
-            return np.ones(len(placements), dtype=bool)
-        u, v, w = (placements[:, EDGES[:, i, 1]] - placements[:, EDGES[:, i, 0]] for i in range(3))
-        jacobians = (u * np.cross(v, w)).sum(axis=-1)
-        return np.asarray((jacobians @ WEIGHTS.T > 1e-6).all(axis=1))
+Array: TypeAlias = NDArray[Any]
 
 
 def _bits(vertices: Iterable[int]) -> int:
     return sum(1 << (vertex - 1) for vertex in vertices)
 
 
-def _determinants(placements: Array, quadruples: Array) -> Array:
-    """Return the determinants of many placements, shape (n, len(quadruples))."""
-    a, b, c, d = (placements[:, quadruples[:, i]] for i in range(4))
-    return np.asarray(((b - a) * np.cross(c - a, d - a)).sum(axis=-1))
+_QUADS: Array = np.array(QUADRUPLES) - 1
+_TERMS = [dependence(quintuple) for quintuple in QUINTUPLES]
+_TERM_QUADS: Array = np.array([[QUADRUPLES.index(q) for _, q, _ in terms] for terms in _TERMS])
+_TERM_SIGNS: Array = np.array([[[s] for _, _, s in terms] for terms in _TERMS], dtype=np.int32)
+_TERM_BITS: Array = np.array([[[_bits((v,))] for v, _, _ in t] for t in _TERMS], dtype=np.uint8)
 
 
-def scaled_jacobians(placements: Array) -> Array:
-    """Return the least scaled Jacobian at the corners of each placement, shape (n,).
+def _jacobian_terms() -> tuple[Array, Array]:
+    """Return the 64 triples of edges, (64, 3, 2), and the number of each in order, (64,).
+
+    Up to a positive factor each of the 27 Bernstein coefficients of the Jacobian is a sum of
+    determinants of triples of edges, and each of the 64 determinants occurs in one of these sums.
+    """
+    index = {corner: vertex - 1 for vertex, corner in CORNERS.items()}
+    terms = []
+    for v1, w1, u2, w2, u3, v3 in product((0, 1), repeat=6):
+        ends = (
+            ((0, v1, w1), (1, v1, w1)),
+            ((u2, 0, w2), (u2, 1, w2)),
+            ((u3, v3, 0), (u3, v3, 1)),
+        )
+        edges = [[index[corner] for corner in edge] for edge in ends]
+        terms.append((9 * (u2 + u3) + 3 * (v1 + v3) + w1 + w2, edges))
+    terms.sort()
+    return np.array([edges for _, edges in terms]), np.array([number for number, _ in terms])
+
+
+_EDGES, _COEFFICIENTS = _jacobian_terms()
+_, _FIRST, _SIZES = np.unique(_COEFFICIENTS, return_index=True, return_counts=True)
+_AT_CORNERS: Array = _FIRST[_SIZES == 1]
+"""At a corner the Jacobian is one determinant."""
+
+
+class Sieve:
+    """The conditions that make a placement a witness: realization, and as asked convex and valid.
+
+    The bar is the square of the scaled Jacobian that a valid witness has to exceed at its corners.
+    """
+
+    def __init__(self, orientation: Mapping[Simplex, int], convex: bool, valid: bool) -> None:
+        self.tetrahedra = np.array([QUADRUPLES.index(t) for t in orientation])
+        self.signs = np.array([[sign] for sign in orientation.values()], dtype=np.int32)
+        face = np.zeros(256, dtype=bool)
+        for tetrahedron in orientation:
+            for size in (1, 2, 3, 4):
+                face[[_bits(vertices) for vertices in combinations(tetrahedron, size)]] = True
+        self.forbidden = face[:, None] & face
+        if convex:
+            vertices = [_bits((vertex,)) for vertex in VERTICES]
+            self.forbidden[vertices] = self.forbidden[:, vertices] = True
+        self.valid = valid
+        self.bar = Fraction(0)
+
+    def failures(self, placements: Array) -> Array:
+        """Return how many conditions each of the placements, shape (n, 8, 3), fails.
+
+        They are the signs of the tetrahedra, the circuits (see embedding.py in the kernel), the
+        Bernstein coefficients, undivided, and the shape of the corners.
+        """
+        points = np.ascontiguousarray(placements.transpose(1, 2, 0), dtype=np.int32)
+        values = _determinants(points[_QUADS[:, 1:]] - points[_QUADS[:, :1]])
+        count = (values[self.tetrahedra] * self.signs <= 0).sum(axis=0)
+        terms = values[_TERM_QUADS] * _TERM_SIGNS
+        positive = ((terms > 0) * _TERM_BITS).sum(axis=1, dtype=np.uint8)
+        negative = ((terms < 0) * _TERM_BITS).sum(axis=1, dtype=np.uint8)
+        count += self.forbidden[positive, negative].sum(axis=0)
+        if self.valid:
+            edges, jacobians = _jacobians(points)
+            count += (np.add.reduceat(jacobians, _FIRST) <= 0).sum(axis=0)
+            above, below = _squared_shapes(edges, jacobians)
+            count += (above * self.bar.denominator <= below * self.bar.numerator).sum(axis=0)
+        return np.asarray(count)
+
+
+def shape(points: Array) -> Fraction:
+    """Return the square of the least scaled Jacobian at the corners, with its sign.
 
     At a corner: the determinant of the three edges over the product of their lengths.
     """
-    edges = placements[:, _CORNER_EDGES] - placements[:, :, None]
-    values = (edges[:, :, 0] * np.cross(edges[:, :, 1], edges[:, :, 2])).sum(axis=-1)
-    lengths = np.sqrt((edges.astype(float) ** 2).sum(axis=-1)).prod(axis=-1)
-    with np.errstate(invalid="ignore"):
-        scaled = _CORNER_SIGNS * values / lengths
-    return np.asarray(np.nan_to_num(scaled, nan=-1.0).min(axis=-1))
+    above, below = _squared_shapes(*_jacobians(points[:, :, None]))
+    return min(map(Fraction, above[:, 0].tolist(), below[:, 0].tolist()))
+
+
+def _jacobians(points: Array) -> tuple[Array, Array]:
+    """Return the triples of edges, (64, 3, 3, n), and their determinants, (64, n)."""
+    edges = points[_EDGES[:, :, 1]] - points[_EDGES[:, :, 0]]
+    return edges, _determinants(edges)
+
+
+def _squared_shapes(edges: Array, jacobians: Array) -> tuple[Array, Array]:
+    """Return d |d|, d the Jacobian at a corner, and its edges' product of squares, each (8, n)."""
+    d = jacobians[_AT_CORNERS].astype(np.int64)
+    return d * abs(d), (edges[_AT_CORNERS] ** 2).sum(axis=2).prod(axis=1)
+
+
+def _determinants(vectors: Array) -> Array:
+    """Return the determinants of triples of vectors, (m, 3, 3, n), as an array (m, n)."""
+    a, b, c = vectors.transpose(1, 2, 0, 3)
+    return np.asarray(
+        a[0] * (b[1] * c[2] - b[2] * c[1])
+        + a[1] * (b[2] * c[0] - b[0] * c[2])
+        + a[2] * (b[0] * c[1] - b[1] * c[0])
+    )
