@@ -2,7 +2,9 @@
 
 import json
 from collections.abc import Callable, Iterator
+from fractions import Fraction
 from hashlib import sha256
+from math import lcm
 from pathlib import Path
 from shutil import copy
 from typing import Any, TypeAlias
@@ -384,7 +386,9 @@ def is_accepted(root: Path, original: Verdict) -> bool:
     for question, answer in verdict.answers.items():
         assert answer in (original.answers[question], "open", "rejected")
         if answer == "yes":
-            placement = tuple(map(tuple, record[question]["points"]))
+            points = [[Fraction(x) for x in point] for point in record[question]["points"]]
+            scale = lcm(*(x.denominator for point in points for x in point))
+            placement = tuple(tuple(int(x * scale) for x in point) for point in points)
             assert realizes(placement, signs)
             assert question != "convex" or all(is_extreme(placement, v) for v in VERTICES)
     return verdict.fault is None
