@@ -258,7 +258,7 @@ def test_polynomials_join_the_formula() -> None:
 
 
 def moved(points: Array, noise: float, count: int, rng: np.random.Generator) -> Array:
-    return np.rint(20 * (points + noise * rng.normal(size=(count, 8, 3)))).astype(int)
+    return np.asarray(np.rint(20 * (points + noise * rng.normal(size=(count, 8, 3)))), dtype=int)
 
 
 def refusal(test: Callable[..., object], *args: object) -> str | None:

@@ -14,12 +14,12 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from certify.cli.common import (
-    PatternName,
     examples,
     existing_root,
     exit_with,
     jobs_option,
     json_option,
+    pattern_argument,
     print_json,
     print_table,
     print_wrapped,
@@ -65,7 +65,7 @@ def check_all(jobs: int, root: Path | None, as_json: bool, junit: BufferedWriter
 
 
 @click.command(epilog=examples("certify check 15_A 8_E"))
-@click.argument("patterns", nargs=-1, required=True, type=PatternName(), metavar="PATTERN...")
+@pattern_argument("patterns", nargs=-1, required=True, metavar="PATTERN...")
 @root_option
 @json_option
 def check(patterns: tuple[str, ...], root: Path | None, as_json: bool) -> None:

@@ -10,12 +10,16 @@ import textwrap
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
 import click
 
 if TYPE_CHECKING:
+    from click.shell_completion import CompletionItem
+
     from certify.kernel.check import Verdict
+
+F = TypeVar("F", bound=Callable[..., Any])
 
 root_option = click.option(
     "--root",
@@ -50,31 +54,30 @@ def examples(*lines: str) -> str:
     )
 
 
-class PatternName(click.ParamType[str]):
-    """One of the 174 names, completed by the shell."""
+def require_pattern(name: str) -> str:
+    """Return the name if it is one of the 174, else fail."""
+    from certify.kernel.certificate import PATTERN_NAMES
 
-    name = "pattern"
+    if name not in PATTERN_NAMES:
+        fail(f"unknown pattern {name}; see 'certify list'", code=2)
+    return name
 
-    def convert(self, value: str, *_: object) -> str:
-        """Return the name if it is one."""
-        from certify.kernel.certificate import PATTERN_NAMES
-        from certify.run import printable
 
-        if value not in PATTERN_NAMES:
-            fail(f"unknown pattern {printable(value)}; see 'certify list'", code=2)
-        return value
+def _known(_context: click.Context, _parameter: click.Parameter, value: Any) -> Any:
+    return require_pattern(value) if isinstance(value, str) else tuple(map(require_pattern, value))
 
-    def shell_complete(
-        self,
-        ctx: click.Context,  # noqa: ARG002
-        param: click.Parameter,  # noqa: ARG002
-        incomplete: str,
-    ) -> list[click.shell_completion.CompletionItem]:
-        """Return the names that begin so."""
-        from certify.kernel.certificate import PATTERN_NAMES
 
-        names = [name for name in PATTERN_NAMES if name.startswith(incomplete)]
-        return list(map(click.shell_completion.CompletionItem, names))
+def _completed(
+    _context: click.Context, _parameter: click.Parameter, incomplete: str
+) -> list[str | CompletionItem]:
+    from certify.kernel.certificate import PATTERN_NAMES
+
+    return [name for name in PATTERN_NAMES if name.startswith(incomplete)]
+
+
+def pattern_argument(name: str, **settings: Any) -> Callable[[F], F]:
+    """Return an argument that takes names of patterns, which the shell completes."""
+    return click.argument(name, callback=_known, shell_complete=_completed, **settings)
 
 
 def fail(message: str, code: int) -> NoReturn:

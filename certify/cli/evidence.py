@@ -11,16 +11,17 @@ from typing import Any
 import click
 
 from certify.cli.common import (
-    PatternName,
     examples,
     existing_root,
     exit_with,
     fail,
     json_option,
+    pattern_argument,
     plural,
     print_json,
     print_table,
     print_wrapped,
+    require_pattern,
     root_option,
     verdict_line,
 )
@@ -58,7 +59,7 @@ def list_(root: Path | None, as_json: bool) -> None:
 
 
 @click.command(epilog=examples("certify show 8_E"))
-@click.argument("pattern", type=PatternName())
+@pattern_argument("pattern")
 @root_option
 @json_option
 def show(pattern: str, root: Path | None, as_json: bool) -> None:
@@ -138,7 +139,7 @@ def _export_answer(root: Path, name: str, question: str, to: Path) -> list[Path]
     from certify.kernel.certificate import QUESTIONS
     from certify.kernel.check import check_pattern
 
-    pattern = PatternName().convert(name, None, None)
+    pattern = require_pattern(name)
     if question not in QUESTIONS:
         fail(f"unknown question {question}; it must be one of {', '.join(QUESTIONS)}", code=2)
     verdict = check_pattern(root, pattern)

@@ -55,7 +55,7 @@ def squeeze(witness: Array, sieve: Sieve, rng: np.random.Generator, tries: int) 
     """Return the witness on the coarsest grid before so many walks to the next coarser one fail."""
     width = WIDTH
     while tries:
-        closer = witness - (2 * witness > width)
+        closer: Array = witness - (2 * witness > width)
         found = walk(closer, sieve, rng, width - 1, reach=width)
         if found is None:
             tries -= 1
