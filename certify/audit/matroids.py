@@ -10,15 +10,17 @@ from certify.kernel.orientations import Clause, has_sign
 from certify.kernel.triangulation import orientation
 from certify.propagation import Propagator
 
+SignVector: TypeAlias = dict[Simplex, int]
 Formula: TypeAlias = Callable[[Mapping[Simplex, int]], tuple[Clause, ...]]
 
 
-def uniform_sign_vectors(tetrahedra: Tetrahedra, formula: Formula) -> int | None:
-    """Return how many acyclic uniform sign vectors satisfy one of the kernel's formulas.
+def uniform_sign_vectors(tetrahedra: Tetrahedra, formula: Formula) -> list[SignVector] | None:
+    """Return the acyclic uniform sign vectors that satisfy one of the kernel's formulas.
 
     Decided by failed literals: a sign is wrong if unit propagation from it reaches a contradiction.
-    0: that leaves some quadruple without a sign, even if acyclicity is not asked for. 1: it leaves
-    one sign for each, and those satisfy everything. None: neither, so this does not decide it.
+    If that leaves some quadruple without a sign, even though acyclicity is not asked for, there is
+    none. If it leaves one sign for each, and those satisfy everything, there is one. Otherwise this
+    does not decide it, and the value is None.
     """
     signs = [(quadruple, sign) for quadruple in QUADRUPLES for sign in (1, -1)]
     clauses = list(formula(orientation(tetrahedra)))
@@ -32,8 +34,8 @@ def uniform_sign_vectors(tetrahedra: Tetrahedra, formula: Formula) -> int | None
                 wrong.add((quadruple, sign))
                 propagator.add((-literal,))
                 if propagator.implies(()):
-                    return 0
+                    return []
     left = dict(item for item in signs if item not in wrong)
     true = {has_sign(*item) * (-1 if item in wrong else 1) for item in signs}
     acyclic = all(positive and negative for positive, negative in circuits(left))
-    return 1 if acyclic and all(not true.isdisjoint(clause) for clause in clauses) else None
+    return [left] if acyclic and all(not true.isdisjoint(clause) for clause in clauses) else None

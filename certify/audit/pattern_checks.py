@@ -20,7 +20,7 @@ from certify.graphs import (
     dual,
     edges,
 )
-from certify.kernel.certificate import PATTERN_COUNTS, PATTERN_NAMES
+from certify.kernel.certificate import PATTERN_COUNTS, PATTERN_NAMES, No
 from certify.kernel.chirotope import chirotope, circuits
 from certify.kernel.cube import CUBE_SIGNS
 from certify.kernel.embedding import NotRealized, require_realization
@@ -32,6 +32,7 @@ from certify.kernel.hexahedron import (
 )
 from certify.kernel.jacobian import require_positive_jacobian
 from certify.kernel.orientations import convex_formula, realization_formula
+from certify.kernel.refutation import excluded_signs
 from certify.kernel.triangulation import orbit, orientation, triangles
 from certify.paper import NEEDS_FINAL_POLYNOMIAL, size
 
@@ -211,16 +212,20 @@ def cones_close_the_balls(inputs: Inputs) -> bool:
 def cycles_need_not_be_edges(inputs: Inputs) -> bool:
     """Each interior edge has a chordless cycle, but in 122 patterns there are more cycles.
 
-    The smallest of those patterns have ten tetrahedra.
+    In 105 of these some have no dashed chord either. The smallest have ten tetrahedra.
     """
-    more = []
+    more, without_dashed_chord = [], []
     for t in _balls(inputs).values():
-        cycles, around = chordless_cycles(decomposition(t).plain), around_interior_edges(t)
+        _, plain, dashed = decomposition(t)
+        cycles, around = chordless_cycles(plain), around_interior_edges(t)
         others = cycles.difference(around.values())
         if len(cycles) - len(others) != len(around):
             return False
         more += [len(t)] if others else []
-    return len(more) == 122 and min(more) == 10
+        chords = [pair for pair in dashed if pair not in plain and pair[::-1] not in plain]
+        if any(not any(cycle.issuperset(chord) for chord in chords) for cycle in others):
+            without_dashed_chord.append(len(t))
+    return [len(more), len(without_dashed_chord)] == [122, 105] and min(without_dashed_chord) == 10
 
 
 @check_of_patterns
@@ -250,7 +255,7 @@ def balls_forget_facets(inputs: Inputs) -> bool:
 def three_have_no_oriented_matroid(inputs: Inputs) -> bool:
     """No uniform sign vector satisfies the constraints of section 4.2 for the names in bold."""
     bold = _balls(inputs, sorted(inputs.bold)).values()
-    return len(bold) == 3 and all(uniform_sign_vectors(t, realization_formula) == 0 for t in bold)
+    return len(bold) == 3 and all(uniform_sign_vectors(t, realization_formula) == [] for t in bold)
 
 
 @check_of_patterns
@@ -258,7 +263,23 @@ def of_thirteen_one_has_an_oriented_matroid(inputs: Inputs) -> bool:
     """With no vertex inside four others, 15_G has one uniform oriented matroid, the rest none."""
     balls = _balls(inputs, sorted(inputs.underlined))
     found = {name: uniform_sign_vectors(t, convex_formula) for name, t in balls.items()}
-    return len(found) == 13 and found == dict.fromkeys(found, 0) | {NEEDS_FINAL_POLYNOMIAL: 1}
+    some = {name: vectors for name, vectors in found.items() if vectors != []}
+    return len(found) == 13 and [*some] == [NEEDS_FINAL_POLYNOMIAL] and None not in some.values()
+
+
+@check_of_patterns
+def final_polynomial_excludes_the_oriented_matroid(inputs: Inputs) -> bool:
+    """The only uniform oriented matroid of 15_G has the signs of one of its final polynomials."""
+    certificate = inputs.patterns[NEEDS_FINAL_POLYNOMIAL].certificate
+    answer = certificate.answers["convex"] if certificate else None
+    if certificate is None or not isinstance(answer, No):
+        return False
+    vectors = uniform_sign_vectors(certificate.tetrahedra, convex_formula) or []
+    return any(
+        polynomial.signs.items() <= vector.items() and excluded_signs(polynomial) != ()
+        for vector in vectors
+        for polynomial in answer.final_polynomials
+    )
 
 
 @check_of_patterns
