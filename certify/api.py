@@ -8,7 +8,7 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
-from numbers import Rational
+from numbers import Integral, Rational
 from pathlib import Path
 
 from certify.kernel.certificate import (
@@ -27,7 +27,7 @@ from certify.kernel.hexahedron import VERTICES, Simplex
 from certify.kernel.orientations import Clause
 from certify.kernel.refutation import NotRefuted
 from certify.kernel.refutation import replay as kernel_replay
-from certify.kernel.theorems import Outcome
+from certify.kernel.theorems import Outcome, Theorem
 from certify.kernel.triangulation import orientation
 from certify.report import claimed
 from certify.run import run
@@ -38,6 +38,7 @@ __all__ = [
     "NotRefuted",
     "Outcome",
     "Pattern",
+    "Theorem",
     "Verdict",
     "check",
     "check_all",
@@ -71,6 +72,9 @@ class Pattern:
 
     certificate: Certificate
     root: Path
+
+    def __repr__(self) -> str:
+        return f"<Pattern {self.name} below {self.root}>"
 
     @property
     def name(self) -> str:
@@ -150,7 +154,7 @@ def check(pattern: str, root: Path | str | None = None) -> Verdict:
     return check_pattern(_root(root), _pattern(pattern))
 
 
-def check_all(root: Path | str | None = None, jobs: int = 1) -> Outcome:
+def check_all(*, root: Path | str | None = None, jobs: int = 1) -> Outcome:
     """Return the verdicts on all certificates, and the theorems that they prove together.
 
     It takes a few seconds; ``jobs`` processes share the work.
@@ -159,8 +163,8 @@ def check_all(root: Path | str | None = None, jobs: int = 1) -> Outcome:
     >>> outcome.ok, len(outcome.verdicts), sum(theorem.ok for theorem in outcome.theorems)
     (True, 174, 15)
     """
-    if jobs < 1:
-        raise ValueError(f"jobs is {jobs}, but there must be at least one")
+    if type(jobs) is not int or jobs < 1:
+        raise ValueError(f"jobs is {jobs!a}, but it must be a positive integer")
     return run(_root(root), jobs)
 
 
@@ -192,6 +196,8 @@ def require(
     ...
     certify.kernel.embedding.NotRealized: tetrahedron 2368 is inverted
     """
+    if not isinstance(points, Iterable):
+        raise ValueError(f"{points!a} is not eight points")
     exact = tuple(_point(vertex, point) for vertex, point in enumerate(points, start=1))
     if len(exact) != len(VERTICES):
         raise ValueError(f"there are {len(exact)} points instead of eight")
@@ -215,16 +221,23 @@ def replay(clauses: Iterable[Iterable[int]], proof: str) -> int:
     >>> replay([(1, 2), (-1, 2), (1, -2), (-1, -2)], "5 2 0 1 2 0\n6 0 5 3 4 0\n")
     2
     """
-    formula: list[Clause] = []
-    for number, clause in enumerate(clauses, start=1):
-        formula.append(tuple(clause))
-        if not all(type(literal) is int and literal for literal in formula[-1]):
-            raise ValueError(f"clause {number} is {formula[-1]!a}: not non-zero integers only")
-    return kernel_replay(formula, proof)
+    if not isinstance(proof, str):
+        raise ValueError(f"the proof is a {type(proof).__name__}, not a text")
+    return kernel_replay([_clause(*item) for item in enumerate(clauses, start=1)], proof)
+
+
+def _clause(number: int, clause: Iterable[int]) -> Clause:
+    literals = tuple(clause) if isinstance(clause, Iterable) else (None,)
+    if not all(isinstance(x, Integral) and not isinstance(x, bool) and x for x in literals):
+        raise ValueError(f"clause {number} is {clause!a}, not some non-zero integers")
+    return tuple(map(int, literals))
 
 
 def _root(root: Path | str | None) -> Path:
-    return default_root() if root is None else Path(root)
+    folder = default_root() if root is None else Path(root)
+    if not (folder / "certificates").is_dir():
+        raise ValueError(f"{folder} has no folder certificates")
+    return folder
 
 
 def _pattern(name: str) -> str:

@@ -26,15 +26,15 @@ from certify.kernel.triangulation import label, orientation
 from certify.report import coordinates, json_text
 
 
-def lemmas(root: Path, certificate: Certificate) -> dict[str, int | None]:
+def steps(root: Path, certificate: Certificate) -> dict[str, int | None]:
     """Return, by question, how many clauses the proof adds; None where there is none to read."""
     return {
-        question: _lemmas(root, answer) if isinstance(answer, No) else None
+        question: _steps(root, answer) if isinstance(answer, No) else None
         for question, answer in certificate.answers.items()
     }
 
 
-def _lemmas(root: Path, answer: No) -> int | None:
+def _steps(root: Path, answer: No) -> int | None:
     try:
         lines = Evidence(root).proof(answer.proof, answer.digest).splitlines()
     except Malformed:

@@ -69,20 +69,20 @@ def verdict_record(verdict: Verdict) -> dict[str, Any]:
     }
 
 
-def evidence_record(certificate: Certificate, lemmas: Mapping[str, int | None]) -> dict[str, Any]:
-    """Return a certificate with its evidence; ``lemmas``: how many clauses the proofs add."""
+def evidence_record(certificate: Certificate, steps: Mapping[str, int | None]) -> dict[str, Any]:
+    """Return a certificate with its evidence; ``steps``: how many clauses the proofs add."""
     evidence = {
-        question: {"answer": claimed(answer), **_evidence(question, answer, lemmas)}
+        question: {"answer": claimed(answer), **_evidence(question, answer, steps)}
         for question, answer in certificate.answers.items()
     }
     return {**claim_record(certificate), "tetrahedra": certificate.tetrahedra, **evidence}
 
 
-def _evidence(question: str, answer: Answer, lemmas: Mapping[str, int | None]) -> dict[str, Any]:
+def _evidence(question: str, answer: Answer, steps: Mapping[str, int | None]) -> dict[str, Any]:
     if isinstance(answer, No):
         return {
             "proof": answer.proof,
-            "lemmas": lemmas[question],
+            "steps": steps[question],
             "final_polynomials": len(answer.final_polynomials),
         }
     if not isinstance(answer, Yes):

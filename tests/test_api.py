@@ -59,6 +59,11 @@ def test_load_is_what_is_stored() -> None:
     certify.require("8_E", "valid", points)
 
 
+def test_what_is_printed_is_short() -> None:
+    assert repr(certify.load("8_E")).startswith("<Pattern 8_E below ")
+    assert len(repr(certify.check("8_E"))) < 200
+
+
 def test_patterns_are_all() -> None:
     assert certify.patterns() == PATTERN_NAMES
 
@@ -69,7 +74,7 @@ def test_check_of_another_root(root: Path) -> None:
         "certificates/5_A.json: boundary: stated b, but it is a"
     )
     assert certify.check("15_A", str(root)).fault is None
-    assert not certify.check_all(root).ok
+    assert not certify.check_all(root=root).ok
     with pytest.raises(certify.Malformed, match="is missing, or is not a regular file"):
         certify.load("6_A", root)
     with pytest.raises(certify.Malformed, match="boundary: stated b"):
@@ -84,8 +89,14 @@ def test_check_of_another_root(root: Path) -> None:
         (lambda: certify.load("5_A").points("nice"), "unknown question 'nice'"),
         (lambda: certify.load("5_A").proof("nice"), "must be one of realizable, convex, valid"),
         (lambda: certify.require("5_A", "nice", CUBE), "unknown question 'nice'"),
-        (lambda: certify.check_all(jobs=0), "jobs is 0"),
-        (lambda: certify.replay([(1, 0)], ""), r"clause 1 is \(1, 0\): not non-zero integers only"),
+        (lambda: certify.check_all(jobs=0), "jobs is 0, but it must be a positive integer"),
+        (lambda: certify.check_all(jobs="2"), "jobs is '2'"),  # type: ignore[arg-type]
+        (lambda: certify.check("5_A", root="/nowhere"), "/nowhere has no folder certificates"),
+        (lambda: certify.check_all(root="/nowhere"), "/nowhere has no folder certificates"),
+        (lambda: certify.require("5_A", "valid", None), "None is not eight points"),  # type: ignore[arg-type]
+        (lambda: certify.replay([1, 2], ""), "clause 1 is 1, not some non-zero integers"),  # type: ignore[list-item]
+        (lambda: certify.replay([], b""), "the proof is a bytes, not a text"),  # type: ignore[arg-type]
+        (lambda: certify.replay([(1, 0)], ""), r"clause 1 is \(1, 0\), not some non-zero integers"),
         (lambda: certify.replay([(1,), (True,)], ""), "clause 2 is"),
     ],
 )
@@ -149,5 +160,6 @@ def test_points_that_do_not_show_it() -> None:
 def test_replay() -> None:
     square = [(1, 2), (-1, 2), (1, -2), (-1, -2)]
     assert certify.replay(square, "5 2 0 1 2 0\n6 0 5 3 4 0\n") == 2
+    assert certify.replay(np.array(square), "5 2 0 1 2 0\n6 0 5 3 4 0\n") == 2
     with pytest.raises(certify.NotRefuted, match="line 1: there is no clause 9"):
         certify.replay(square, "5 2 0 9 0\n")

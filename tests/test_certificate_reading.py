@@ -176,7 +176,7 @@ def test_text_is_refused(root: Path, content: bytes, reason: str) -> None:
 NAME = "pattern is not one of the 174 names"
 ORDER = "tetrahedra are not increasing quadruples of 1..8 in increasing order"
 VERTEX = "a vertex is not an integer"
-COORDINATE = "a coordinate that is not a fraction p/q is not an integer"
+COORDINATE = "realizable: point 1: a coordinate is neither an integer nor a fraction p/q"
 NO_PROOF = "valid: proof is not proofs/8_E.valid.lrat"
 SIGNS = "signs does not map quadruples like 1234 to -1, 0 or 1"
 SIX = "an inequality does not have six different vertices"
@@ -222,26 +222,26 @@ STATEMENTS: list[tuple[Spoil, str]] = [
     (put(QUADS, 2, value=[6, 7, 8, 9]), ORDER),
     (put(QUADS, 1, value=[1, 2, 3, 4]), ORDER),
     (put(QUADS, value=document()[QUADS][::-1]), ORDER),
-    (put("convex", value="open"), "convex is not an object"),
+    (put("convex", value="open"), "convex: the answer is not an object"),
     (put("convex", value={}), 'convex: answer is not "yes", "no" or "open"'),
     (put("convex", "answer", value="maybe"), 'convex: answer is not "yes", "no" or "open"'),
     (put("convex", "answer", value=["yes"]), 'convex: answer is not "yes", "no" or "open"'),
-    (put("convex", "points", value=[]), "unknown key 'points'"),
-    (put("realizable", "proof", value=""), "unknown key 'proof'"),
-    (put("valid", "points", value=[]), "unknown key 'points'"),
-    (drop("realizable", "points"), '"points" is missing'),
-    (drop("valid", "proof"), '"proof" is missing'),
-    (drop("valid", "sha256"), '"sha256" is missing'),
+    (put("convex", "points", value=[]), "convex: unknown key 'points'"),
+    (put("realizable", "proof", value=""), "realizable: unknown key 'proof'"),
+    (put("valid", "points", value=[]), "valid: unknown key 'points'"),
+    (drop("realizable", "points"), 'realizable: "points" is missing'),
+    (drop("valid", "proof"), 'valid: "proof" is missing'),
+    (drop("valid", "sha256"), 'valid: "sha256" is missing'),
     # Points.
-    (put(*POINTS, value="points"), "points is not a list"),
+    (put(*POINTS, value="points"), "realizable: points is not a list"),
     (drop(*POINTS, 0), "realizable: points has 7 points instead of eight"),
     (put(*POINTS, value=[[0, 0, 0]] * 9), "realizable: points has 9 points instead of eight"),
-    (put(*POINTS, 0, value=0), "a point is not a list"),
-    (put(*POINTS, 0, value=[0, 0]), "a point has 2 coordinates instead of three"),
-    (put(*POINTS, 0, value=[0] * 4), "a point has 4 coordinates instead of three"),
+    (put(*POINTS, 0, value=0), "realizable: point 1: the point is not a list"),
+    (put(*POINTS, 0, value=[0, 0]), "realizable: point 1: it has 2 coordinates instead of three"),
+    (put(*POINTS, 0, value=[0] * 4), "realizable: point 1: it has 4 coordinates instead of three"),
     *((put(*POINTS, 0, 0, value=value), COORDINATE) for value in NO_COORDINATES),
     # Refutations.
-    (put("valid", "proof", value=0), "proof is not a string"),
+    (put("valid", "proof", value=0), "valid: proof is not a string"),
     *(
         (put("valid", "proof", value=path), NO_PROOF)
         for path in [
@@ -251,40 +251,40 @@ STATEMENTS: list[tuple[Spoil, str]] = [
             *("proofs/8_E.valid.lrat\n", "proofs/8_E.valid.lrat\0", "proofs/8_e.valid.lrat"),
         ]
     ),
-    (put("valid", "sha256", value=0), "sha256 is not a string"),
+    (put("valid", "sha256", value=0), "valid: sha256 is not a string"),
     *(
         (put("valid", "sha256", value=digest), "valid: sha256 is not 64 hexadecimal digits")
         for digest in ["", "0" * 63, "0" * 65, "0" * 64 + "\n", "A" * 64, "x" * 64, "\u0660" * 64]
     ),
     # Final polynomials.
-    (put(*POLYNOMIALS, value={}), "final_polynomials is not a list"),
-    (put(*POLYNOMIALS, value=None), "final_polynomials is not a list"),
-    (put(*POLYNOMIAL, value=[]), "a final polynomial is not an object"),
-    (put(*POLYNOMIAL, "extra", value=0), "unknown key 'extra'"),
-    (drop(*POLYNOMIAL, "signs"), '"signs" is missing'),
-    (drop(*POLYNOMIAL, "inequalities"), '"inequalities" is missing'),
-    (put(*POLYNOMIAL, "signs", value=[]), "signs is not an object"),
+    (put(*POLYNOMIALS, value={}), "valid: final_polynomials is not a list"),
+    (put(*POLYNOMIALS, value=None), "valid: final_polynomials is not a list"),
+    (put(*POLYNOMIAL, value=[]), "valid: a final polynomial is not an object"),
+    (put(*POLYNOMIAL, "extra", value=0), "valid: unknown key 'extra'"),
+    (drop(*POLYNOMIAL, "signs"), 'valid: "signs" is missing'),
+    (drop(*POLYNOMIAL, "inequalities"), 'valid: "inequalities" is missing'),
+    (put(*POLYNOMIAL, "signs", value=[]), "valid: signs is not an object"),
     *(
-        (put(*POLYNOMIAL, "signs", key, value=1), SIGNS)
+        (put(*POLYNOMIAL, "signs", key, value=1), f"valid: {SIGNS}")
         for key in ("", "123", "1243", "1123", "12345", "1239", "1 2 3 4", "\u0661234")
     ),
-    (put(*POLYNOMIAL, "signs", "1234", value=2), SIGNS),
-    (put(*POLYNOMIAL, "signs", "1234", value=True), "a sign is not an integer"),
-    (put(*POLYNOMIAL, "signs", "1234", value="1"), "a sign is not an integer"),
-    (put(*POLYNOMIAL, "inequalities", value={}), "inequalities is not a list"),
-    (put(*INEQUALITY, value={}), "an inequality is not a list"),
-    (put(*INEQUALITY, value=[1]), "an inequality is not [multiplier, vertices]"),
-    (put(*INEQUALITY, value=[1, [], 1]), "an inequality is not [multiplier, vertices]"),
-    (put(*INEQUALITY, 0, value=True), "a multiplier is not an integer"),
-    (put(*INEQUALITY, 0, value="1"), "a multiplier is not an integer"),
-    (put(*INEQUALITY, 1, value="123456"), "the indices is not a list"),
-    (put(*INEQUALITY, 1, value=[1, 2, 3, 4, 5]), SIX),
-    (put(*INEQUALITY, 1, value=[1, 2, 3, 4, 5, 5]), SIX),
-    (put(*INEQUALITY, 1, value=[1, 2, 3, 4, 5, 6, 7]), SIX),
-    (put(*INEQUALITY, 1, value=[0, 2, 3, 4, 5, 6]), SIX),
-    (put(*INEQUALITY, 1, value=[1, 2, 3, 4, 5, 9]), SIX),
-    (put(*INEQUALITY, 1, 0, value="1"), VERTEX),
-    (put(*INEQUALITY, 1, 0, value=True), VERTEX),
+    (put(*POLYNOMIAL, "signs", "1234", value=2), f"valid: {SIGNS}"),
+    (put(*POLYNOMIAL, "signs", "1234", value=True), "valid: a sign is not an integer"),
+    (put(*POLYNOMIAL, "signs", "1234", value="1"), "valid: a sign is not an integer"),
+    (put(*POLYNOMIAL, "inequalities", value={}), "valid: inequalities is not a list"),
+    (put(*INEQUALITY, value={}), "valid: an inequality is not a list"),
+    (put(*INEQUALITY, value=[1]), "valid: an inequality is not [multiplier, vertices]"),
+    (put(*INEQUALITY, value=[1, [], 1]), "valid: an inequality is not [multiplier, vertices]"),
+    (put(*INEQUALITY, 0, value=True), "valid: a multiplier is not an integer"),
+    (put(*INEQUALITY, 0, value="1"), "valid: a multiplier is not an integer"),
+    (put(*INEQUALITY, 1, value="123456"), "valid: the indices is not a list"),
+    (put(*INEQUALITY, 1, value=[1, 2, 3, 4, 5]), f"valid: {SIX}"),
+    (put(*INEQUALITY, 1, value=[1, 2, 3, 4, 5, 5]), f"valid: {SIX}"),
+    (put(*INEQUALITY, 1, value=[1, 2, 3, 4, 5, 6, 7]), f"valid: {SIX}"),
+    (put(*INEQUALITY, 1, value=[0, 2, 3, 4, 5, 6]), f"valid: {SIX}"),
+    (put(*INEQUALITY, 1, value=[1, 2, 3, 4, 5, 9]), f"valid: {SIX}"),
+    (put(*INEQUALITY, 1, 0, value="1"), f"valid: {VERTEX}"),
+    (put(*INEQUALITY, 1, 0, value=True), f"valid: {VERTEX}"),
 ]
 
 

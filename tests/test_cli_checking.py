@@ -33,8 +33,8 @@ def test_check_prints_a_line_a_pattern(root: Path) -> None:
     code, out, err = run(root, "check", "5_A", "15_A")
     first, second = out.splitlines()
     assert (code, err) == (0, "")
-    assert first == "5_A: realizable yes, convex yes, valid yes"
-    assert second.startswith("15_A: realizable no, convex no, valid ")
+    assert first == "ok: 5_A: realizable yes, convex yes, valid yes"
+    assert second.startswith("ok: 15_A: realizable no, convex no, valid ")
 
 
 def test_check_json(root: Path) -> None:
@@ -61,7 +61,7 @@ def test_check_rejects_one_and_accepts_the_other(root: Path) -> None:
     code, out, _ = run(root, "check", "5_A", "15_A")
     assert code == 1
     assert out.startswith(
-        "rejected: certificates/5_A.json: instances: stated 3, but it is 2\n15_A:"
+        "rejected: certificates/5_A.json: instances: stated 3, but it is 2\nok: 15_A:"
     )
     code, record = run_json(root, "check", "5_A", "15_A")
     assert code == 1
@@ -290,8 +290,8 @@ def test_replay_rejects(tmp_path: Path, formula: str, proof: str | bytes, fault:
 
 def test_replay_of_missing_files(tmp_path: Path) -> None:
     result = CliRunner().invoke(cli, ["replay", str(tmp_path / "f"), str(tmp_path / "p")])
-    assert result.exit_code == 1
-    assert "f is missing, or is not a regular file" in result.stdout
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert result.stderr.endswith("f is missing, or is not a regular file\n")
 
 
 @pytest.mark.parametrize(("pattern", "question"), [("15_K", "valid"), ("15_A", "realizable")])

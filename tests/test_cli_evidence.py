@@ -52,7 +52,7 @@ def test_show_prints_the_points_once(root: Path) -> None:
     code, out, _ = run(root, "show", "5_A")
     assert code == 0
     verdict, found, *_ = out.splitlines()
-    assert verdict == "5_A: realizable yes, convex yes, valid yes"
+    assert verdict == "ok: 5_A: realizable yes, convex yes, valid yes"
     assert found == "5 tetrahedra, boundary type a, 2 instances; from certificates/5_A.json"
     assert "tetrahedra: 1236 1348 1368 1568 3678\n" in out
     assert out.count("vertex") == 1
@@ -71,7 +71,7 @@ def test_show_prints_fractions(root: Path) -> None:
 def test_show_describes_a_refutation(root: Path) -> None:
     lines = (root / "proofs" / "15_A.realizable.lrat").read_text().splitlines()
     code, out, _ = run(root, "show", "15_A")
-    evidence = f"proofs/15_A.realizable.lrat: {len(lines)} lemmas"
+    evidence = f"proofs/15_A.realizable.lrat: {len(lines)} steps"
     assert code == 0
     assert f"realizable: no, by {evidence}\n" in out
 
@@ -81,7 +81,7 @@ def test_show_json(root: Path) -> None:
     assert code == 0
     assert record["verdict"]["ok"]
     assert record["certificate"]["realizable"]["proof"] == "proofs/15_A.realizable.lrat"
-    assert record["certificate"]["realizable"]["lemmas"] > 0
+    assert record["certificate"]["realizable"]["steps"] > 0
     (root / "certificates" / "15_A.json").write_text("{")
     code, record = run_json(root, "show", "15_A")
     assert (code, record["certificate"], record["verdict"]["ok"]) == (1, None, False)

@@ -97,7 +97,7 @@ def test_version_and_help_do_without_sympy() -> None:
 def test_program_uses_its_own_certificates() -> None:
     result = spawn("check", "5_A", capture_output=True)
     assert (result.returncode, result.stderr) == (0, "")
-    assert result.stdout.startswith("5_A: realizable yes")
+    assert result.stdout.startswith("ok: 5_A: realizable yes")
 
 
 def test_program_writes_to_any_terminal(root: Path) -> None:

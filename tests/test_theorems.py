@@ -358,8 +358,9 @@ COUNTED: dict[str, Callable[[Shipped], list[object]]] = {
         *sorted({len(said.tetrahedra(name)) for name in said.filling(slivers=False)}),
     ],
     "finite-precision-cube": lambda said: [
-        *{len(said.tetrahedra(name)) for name in said.filling(slivers=True)},
+        len(said.records),
         *said.filling(slivers=True),
+        *{len(said.tetrahedra(name)) for name in said.filling(slivers=True)},
     ],
     "ten": lambda said: [
         len(said.records),

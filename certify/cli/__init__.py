@@ -26,11 +26,14 @@ class _Commands(click.Group):
             code = super().main(*args, **kwargs)
         except click.UsageError as error:
             command = error.ctx.command_path if error.ctx else "certify"
-            fail(f"{error.format_message()} See '{command} --help'.", code=2)
+            message = " ".join(error.format_message().split()).rstrip(".")
+            fail(f"{message}. See '{command} --help'.", code=2)
         except click.ClickException as error:
             fail(error.format_message(), code=error.exit_code)
         except (click.Abort, KeyboardInterrupt):
             fail("interrupted", code=130)
+        except FileExistsError as error:
+            fail(f"{error.filename} is not a folder", code=2)
         except OSError as error:
             fail(str(error), code=2)
         sys.exit(code if isinstance(code, int) else 0)

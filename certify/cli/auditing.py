@@ -4,9 +4,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import asdict
+from itertools import groupby
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -26,14 +28,33 @@ from certify.cli.common import (
 )
 
 if TYPE_CHECKING:
+    from click.shell_completion import CompletionItem
+
     from certify.audit import Finding
+
+
+def _completed_claims(*arguments: Any) -> list[str | CompletionItem]:
+    from certify.audit import load_shipped
+
+    return [claim.id for claim in load_shipped() if claim.id.startswith(arguments[-1])]
+
+
+def _completed_verdicts(*arguments: Any) -> list[str | CompletionItem]:
+    from certify.audit import VERDICTS
+
+    return [verdict for verdict in VERDICTS if verdict.startswith(arguments[-1])]
 
 
 @click.command(
     epilog=examples("certify audit --only corrected", "certify audit convex-13 figure-valid-15s")
 )
-@click.argument("claims", nargs=-1, metavar="[ID...]")
-@click.option("--only", metavar="VERDICT", help="Print the claims with this verdict only.")
+@click.argument("claims", nargs=-1, metavar="[ID...]", shell_complete=_completed_claims)
+@click.option(
+    "--only",
+    metavar="VERDICT",
+    shell_complete=_completed_verdicts,
+    help="Print the claims with this verdict only.",
+)
 @jobs_option
 @root_option
 @json_option
@@ -45,19 +66,19 @@ def audit(
     Everything is checked first; a claim that rests on something rejected is not decided. With IDs,
     only these claims are printed. With --only corrected, the weightiest corrections come first.
     """
-    from certify.audit import VERDICTS, corrections, summary
+    from certify.audit import VERDICTS, corrections, load_shipped, summary
     from certify.audit import audit as findings_of
     from certify.run import run
 
     folder = existing_root(root)
     if only is not None and only not in VERDICTS:
         fail(f"unknown verdict {only}; it must be one of: {', '.join(VERDICTS)}", code=2)
+    unknown = set(claims).difference(claim.id for claim in load_shipped())
+    if unknown:
+        fail(f"unknown claim {min(unknown)}; certify audit lists them all", code=2)
     with progress() as show:
         outcome = run(folder, jobs, show)
     findings = findings_of(outcome)
-    unknown = set(claims).difference(finding.id for finding in findings)
-    if unknown:
-        fail(f"unknown claim {min(unknown)}; certify audit lists them all", code=2)
     in_order = corrections(findings) if only == "corrected" else findings
     chosen = [
         finding
@@ -79,17 +100,32 @@ def audit(
 
 def _print_finding(finding: Finding) -> None:
     weight = f" ({finding.weight})" if finding.weight else ""
-    click.echo(f"{finding.verdict}{weight}: {finding.id}")
+    amended = ", and amended" if finding.verdict == "argued" and finding.amendment else ""
+    click.echo(f"{finding.verdict}{amended}{weight}: {finding.id}")
     for text in (
         finding.place,
         f"Claim: {finding.claim}",
         finding.amendment and f"Amended: {finding.amendment}",
-        f"Reasons: {'; '.join(finding.reasons)}",
-        finding.failed and f"Failed: {'; '.join(finding.failed)}",
+        f"Reasons: {_grouped(finding.reasons)}",
+        finding.failed and f"Failed: {_grouped(finding.failed)}",
     ):
         if text:
             print_wrapped(text, indent="    ")
     click.echo()
+
+
+def _grouped(reasons: Sequence[str]) -> str:
+    """Join reasons; neighbours that differ in the pattern only are said once, with all patterns."""
+
+    def answer(reason: str) -> str:
+        name, _, rest = reason.partition(" ")
+        return rest if "_" in name else reason
+
+    parts = []
+    for rest, group in groupby(reasons, answer):
+        names = [reason.removesuffix(rest).strip() for reason in group]
+        parts.append(f"{', '.join(names)} {rest}".strip())
+    return "; ".join(parts)
 
 
 @click.command(epilog=examples("certify spheres"))
@@ -120,6 +156,7 @@ def spheres(root: Path | None, as_json: bool) -> None:
         click.echo(
             f"{'ok' if found.agrees else 'not ok'}: {found.spheres} spheres with nine vertices, "
             f"{len(found.hexahedra)} classes of hexahedra,\n"
-            f"{found.graphs} classes of decomposition graphs"
+            f"{found.graphs} classes of decomposition graphs; "
+            f"these are {'' if found.agrees else 'not '}the accepted patterns"
         )
     exit_with(found.agrees)

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from io import BufferedWriter
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
@@ -17,6 +16,7 @@ from certify.cli.common import (
     examples,
     existing_root,
     exit_with,
+    fail,
     jobs_option,
     json_option,
     pattern_argument,
@@ -39,9 +39,12 @@ MAX_REPLAY_BYTES = 1 << 28
 @root_option
 @json_option
 @click.option(
-    "--junit", type=click.File("wb", lazy=False), metavar="FILE", help="Write JUnit XML as well."
+    "--junit",
+    type=click.Path(path_type=Path, dir_okay=False, writable=True),
+    metavar="FILE",
+    help="Write JUnit XML as well.",
 )
-def check_all(jobs: int, root: Path | None, as_json: bool, junit: BufferedWriter | None) -> None:
+def check_all(jobs: int, root: Path | None, as_json: bool, junit: Path | None) -> None:
     """Check everything, and print the theorems that follow.
 
     Each of the 174 certificates is checked; --jobs shares the work between processes.
@@ -51,12 +54,14 @@ def check_all(jobs: int, root: Path | None, as_json: bool, junit: BufferedWriter
     from certify.run import run
 
     folder = existing_root(root)
+    if junit and not junit.parent.is_dir():
+        fail(f"--junit: {junit.parent} is not a folder", code=2)
     with progress() as show:
         outcome = run(folder, jobs, show)
     seconds = perf_counter() - start
     summary = report.summary(outcome, seconds)
     if junit:
-        junit.write(report.junit(outcome, seconds))
+        junit.write_bytes(report.junit(outcome, seconds))
     if as_json:
         print_json(summary)
     else:
@@ -100,6 +105,9 @@ def replay(formula: Path, proof: Path, as_json: bool) -> None:
     from certify.kernel.refutation import replay as kernel_replay
     from certify.run import printable
 
+    for path in (formula, proof):
+        if not path.is_file():
+            fail(f"{path} is missing, or is not a regular file", code=2)
     steps, fault = None, None
     try:
         with _naming(formula):
@@ -147,7 +155,7 @@ def _print_summary(summary: dict[str, Any], verdicts: Sequence[Verdict]) -> None
         status = "ok" if theorem["ok"] else "not shown"
         print_wrapped(f"{status}: {theorem['id']}: {theorem['statement']}")
     shown = sum(theorem["ok"] for theorem in summary["theorems"])
-    click.echo(
+    print_wrapped(
         f"{'ok' if summary['ok'] else 'not ok'}: {summary['patterns']} accepted, "
         f"{len(summary['rejected'])} rejected, {len(questions)} open, "
         f"{shown} of {len(summary['theorems'])} theorems, {summary['seconds']:.1f} s"

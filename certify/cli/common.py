@@ -154,7 +154,7 @@ def verdict_line(verdict: Verdict) -> str:
     if verdict.fault is not None:
         return f"rejected: {verdict.fault}"
     answers = ", ".join(f"{question} {answer}" for question, answer in verdict.answers.items())
-    return f"{verdict.pattern}: {answers}"
+    return f"ok: {verdict.pattern}: {answers}"
 
 
 @contextmanager

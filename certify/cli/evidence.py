@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -25,6 +25,9 @@ from certify.cli.common import (
     root_option,
     verdict_line,
 )
+
+if TYPE_CHECKING:
+    from certify.kernel.check import Verdict
 
 
 @click.command("list", epilog=examples("certify list --json"))
@@ -71,14 +74,14 @@ def show(pattern: str, root: Path | None, as_json: bool) -> None:
     verdict = check_pattern(folder, pattern)
     record = None
     if verdict.certificate:
-        lemmas = export.lemmas(folder, verdict.certificate)
-        record = report.evidence_record(verdict.certificate, lemmas)
+        steps = export.steps(folder, verdict.certificate)
+        record = report.evidence_record(verdict.certificate, steps)
     if as_json:
         print_json({"verdict": report.verdict_record(verdict), "certificate": record})
     else:
         click.echo(verdict_line(verdict))
         if record:
-            _print_evidence(record)
+            _print_evidence(record, verdict)
     exit_with(verdict.fault is None)
 
 
@@ -86,7 +89,7 @@ def show(pattern: str, root: Path | None, as_json: bool) -> None:
     epilog=examples("certify export 15_A realizable --to out", "certify export complete g --to out")
 )
 @click.argument("pattern")
-@click.argument("question")
+@click.argument("question", shell_complete=lambda *_: ["realizable", "convex", "valid"])
 @click.option(
     "--to",
     type=click.Path(path_type=Path),
@@ -155,12 +158,12 @@ def _print_claims(records: Sequence[dict[str, Any]], note: str) -> None:
     print_table(headings, ([record[h] for h in headings] for record in records), note)
 
 
-def _print_evidence(record: dict[str, Any]) -> None:
+def _print_evidence(record: dict[str, Any], verdict: Verdict) -> None:
     from certify.kernel.certificate import QUESTIONS
     from certify.kernel.evidence import certificate_file
 
     tetrahedra = ["".join(map(str, tetrahedron)) for tetrahedron in record["tetrahedra"]]
-    click.echo(
+    print_wrapped(
         f"{len(tetrahedra)} tetrahedra, boundary type {record['boundary']}, "
         f"{record['instances']} instances; from {certificate_file(record['pattern'])}"
     )
@@ -169,7 +172,11 @@ def _print_evidence(record: dict[str, Any]) -> None:
     for question in QUESTIONS:
         evidence = record[question]
         same = [q for q in QUESTIONS if record[q].get("points") == evidence.get("points")]
-        click.echo(f"{question}: {evidence['answer']}{_shown_by(evidence, same[0], question)}")
+        accepted = verdict.answers.get(question) == evidence["answer"]
+        answer = (
+            evidence["answer"] if accepted else f"{evidence['answer']} is claimed, but rejected"
+        )
+        click.echo(f"{question}: {answer}{_shown_by(evidence, same[0], question)}")
         if "points" in evidence and same[0] == question:
             _print_points(evidence["points"])
         if "scaled_jacobians" in evidence:
@@ -183,16 +190,16 @@ def _shown_by(evidence: dict[str, Any], first: str, question: str) -> str:
     if "points" in evidence:
         return ", by these points" if first == question else f", by the points of {first}"
     if "proof" in evidence:
-        return f", by {evidence['proof']}: {_lemmas(evidence)}"
+        return f", by {evidence['proof']}: {_steps(evidence)}"
     return ""
 
 
-def _lemmas(evidence: dict[str, Any]) -> str:
-    if evidence["lemmas"] is None:
-        return "it cannot be read"
-    lemmas = plural(evidence["lemmas"], "lemma")
+def _steps(evidence: dict[str, Any]) -> str:
+    if evidence["steps"] is None:
+        return "not there, or not the proof that the certificate names"
+    steps = plural(evidence["steps"], "step")
     polynomials = evidence["final_polynomials"]
-    return f"{lemmas}, {plural(polynomials, 'final polynomial')}" if polynomials else lemmas
+    return f"{steps}, {plural(polynomials, 'final polynomial')}" if polynomials else steps
 
 
 def _print_points(points: Sequence[Sequence[int | str]]) -> None:

@@ -14,10 +14,11 @@ from certify.kernel.theorems import check_all
 
 def main(arguments: list[str]) -> int:
     """Check the root that the only argument names, or the one that comes with the code."""
+    asks = arguments in (["-h"], ["--help"])
     root = Path(arguments[0]) if arguments else default_root()
-    if len(arguments) > 1 or not (root / "certificates").is_dir():
+    if asks or len(arguments) > 1 or not (root / "certificates").is_dir():
         print("usage: python -m certify.kernel [ROOT], with a folder ROOT/certificates")
-        return 2
+        return 0 if asks else 2
     outcome = check_all(root)
     for fault in outcome.faults:
         print(f"rejected: {fault}")
@@ -35,4 +36,7 @@ def main(arguments: list[str]) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    try:
+        sys.exit(main(sys.argv[1:]))
+    except KeyboardInterrupt:
+        sys.exit(130)

@@ -6,11 +6,11 @@ Reading it establishes only that it is well formed. What it claims is decided in
 
 import json
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from string import ascii_uppercase
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, TypeVar
 
 from certify.kernel.chirotope import QUADRUPLES, Point
 from certify.kernel.evidence import Malformed, proof_file
@@ -60,6 +60,7 @@ class Open:
 
 
 Answer: TypeAlias = Yes | No | Open
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -98,7 +99,10 @@ def read_certificate(pattern: str, content: bytes) -> Certificate:
         boundary=boundary,
         instances=_integer(record["instances"], "instances"),
         tetrahedra=tetrahedra,
-        answers={question: _answer(record[question], name, question) for question in QUESTIONS},
+        answers={
+            question: _located(question, _answer, record[question], name, question)
+            for question in QUESTIONS
+        },
     )
 
 
@@ -133,42 +137,57 @@ def _parse(content: bytes) -> object:
         raise Malformed("the file is nested too deeply") from None
 
 
+def _located(where: str, read: Callable[..., T], *arguments: Any) -> T:
+    """Return what is read, and put the place before what is wrong with it."""
+    try:
+        return read(*arguments)
+    except Malformed as error:
+        raise Malformed(f"{where}: {error}") from None
+
+
 def _answer(value: object, pattern: str, question: str) -> Answer:
-    record = _object(value, question)
+    record = _object(value, "the answer")
     match record.get("answer"):
         case "open":
             _keys(record, ("answer",))
             return Open()
         case "yes":
             _keys(record, ("answer", "points"))
-            points = tuple(map(_point, _list(record["points"], "points")))
+            points = _list(record["points"], "points")
             if len(points) != len(VERTICES):
-                raise Malformed(f"{question}: points has {len(points)} points instead of eight")
-            return Yes(points)
+                raise Malformed(f"points has {len(points)} points instead of eight")
+            return Yes(
+                tuple(
+                    _located(f"point {vertex}", _point, point)
+                    for vertex, point in zip(VERTICES, points, strict=True)
+                )
+            )
         case "no":
             _keys(record, ("answer", "proof", "sha256"), optional=("final_polynomials",))
             proof = _text(record["proof"], "proof")
             if proof != proof_file(pattern, question):
-                raise Malformed(f"{question}: proof is not {proof_file(pattern, question)}")
+                raise Malformed(f"proof is not {proof_file(pattern, question)}")
             polynomials = _list(record.get("final_polynomials", []), "final_polynomials")
             digest = _text(record["sha256"], "sha256")
             if not _DIGEST.fullmatch(digest):
-                raise Malformed(f"{question}: sha256 is not 64 hexadecimal digits")
+                raise Malformed("sha256 is not 64 hexadecimal digits")
             return No(proof, digest, tuple(map(_final_polynomial, polynomials)))
-    raise Malformed(f'{question}: answer is not "yes", "no" or "open"')
+    raise Malformed('answer is not "yes", "no" or "open"')
 
 
 def _point(value: object) -> Point:
-    point = tuple(map(_coordinate, _list(value, "a point")))
+    point = tuple(map(_coordinate, _list(value, "the point")))
     if len(point) != 3:
-        raise Malformed(f"a point has {len(point)} coordinates instead of three")
+        raise Malformed(f"it has {len(point)} coordinates instead of three")
     return point
 
 
 def _coordinate(value: object) -> Fraction:
     if isinstance(value, str) and len(value) <= 2 * MAX_DIGITS and _FRACTION.fullmatch(value):
         return Fraction(value)
-    return Fraction(_integer(value, "a coordinate that is not a fraction p/q"))
+    if type(value) is not int:
+        raise Malformed("a coordinate is neither an integer nor a fraction p/q")
+    return Fraction(value)
 
 
 def _final_polynomial(value: object) -> FinalPolynomial:

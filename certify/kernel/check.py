@@ -45,11 +45,11 @@ class Verdict:
 
     pattern: str
     fault: str | None = None
-    certificate: Certificate | None = None
+    certificate: Certificate | None = field(default=None, repr=False)
     boundary: str = ""
-    instances: frozenset[Tetrahedra] = frozenset()
+    instances: frozenset[Tetrahedra] = field(default=frozenset(), repr=False)
     answers: dict[str, str] = field(default_factory=dict)
-    files: dict[str, str] = field(default_factory=dict)
+    files: dict[str, str] = field(default_factory=dict, repr=False)
 
     @property
     def size(self) -> int:

@@ -104,7 +104,10 @@ def check_all(root: Path, apply: Apply = map) -> Outcome:
         completeness = [check_completeness(root, letter, verdicts) for letter in BOUNDARY_TYPES]
     shown = theorems(verdicts, completeness)
     verdicts += [
-        Verdict(ascii(name), fault=f"certificates/{name!a}: the file is not named after a pattern")
+        Verdict(
+            ascii(name)[1:-1],
+            fault=f"certificates/{ascii(name)[1:-1]}: the file is not named after a pattern",
+        )
         for name in strays(root, PATTERN_NAMES)
     ]
     return Outcome(tuple(verdicts), tuple(completeness), tuple(shown))
@@ -253,15 +256,15 @@ _STATEMENTS = (
     _Statement(
         "finite-precision-cube",
         (),
-        "If flat tetrahedra on core diagonals are allowed, the unit cube has exactly four more "
-        "classes of triangulations, with 7 tetrahedra: 7_B, 7_C, 7_D and 7_E.",
+        "Exactly four of the 174 triangulations fill the unit cube only if flat tetrahedra on core "
+        "diagonals are allowed: 7_B, 7_C, 7_D and 7_E, with 7 tetrahedra.",
         lambda facts: facts.slivers == {"7_B", "7_C", "7_D", "7_E"},
     ),
     _Statement(
         "ten",
         (),
-        "The unit cube has ten of the 174 triangulations, flat tetrahedra allowed; the only other "
-        "one with at most 7 tetrahedra is 7_A.",
+        "The unit cube realizes ten of the 174 triangulations, flat tetrahedra allowed; the only "
+        "other one with at most 7 tetrahedra is 7_A.",
         lambda facts: (
             len(facts.cube | facts.slivers) == 10
             and facts.of_size(set(facts.patterns), 5, 6, 7) - facts.cube - facts.slivers == {"7_A"}

@@ -40,8 +40,8 @@ class Refutation(NamedTuple):
 Finding = list[list[int]] | Refutation | None
 """What was found for one question: points, or a refutation, or nothing."""
 
-INVESTIGATING = "investigating the patterns"
-COMPLETING = "proving that no pattern is missing"
+INVESTIGATING = "searching"
+COMPLETING = "completing"
 FOLDERS = ("certificates", "proofs")
 
 
