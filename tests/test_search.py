@@ -487,6 +487,21 @@ def contents(folder: Path) -> dict[str, bytes]:
     return {path.name: path.read_bytes() for path in folder.iterdir()}
 
 
+def test_an_interrupted_build_creates_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(*_: Any) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(build, "write_patterns", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        build.build(tmp_path / "new", 1, lambda *_: None)
+    assert list(tmp_path.iterdir()) == []
+    (tmp_path / "file").touch()
+    with pytest.raises(FileExistsError):
+        build.build(tmp_path / "file", 1, lambda *_: None)
+
+
 def test_an_interrupted_build_changes_nothing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -93,6 +93,8 @@ def audit(
             click.echo(f"rejected: {fault}")
         for finding in chosen:
             _print_finding(finding)
+        if not chosen:
+            click.echo("none of the claims asked for has this verdict\n")
         counts = ", ".join(f"{number} {verdict}" for verdict, number in summary(findings).items())
         print_wrapped(f"{len(findings)} claims: {counts}", hanging="")
     exit_with(not outcome.faults)

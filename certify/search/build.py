@@ -1,6 +1,7 @@
 """Everything found again: all patterns, with answers, names, certificates and proofs."""
 
 import json
+from errno import EEXIST
 from hashlib import sha256
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -54,13 +55,17 @@ def build(root: Path, jobs: int, report: Report) -> None:
     seeded by its position; there is no time limit; points are sought in integers; and linear
     programs have one cheapest solution.
     """
-    root.mkdir(parents=True, exist_ok=True)
-    with TemporaryDirectory(dir=root, prefix=".build-") as name:
+    if root.exists() and not root.is_dir():
+        raise FileExistsError(EEXIST, "it is not a folder", str(root))
+    root.parent.mkdir(parents=True, exist_ok=True)
+    beside = root if root.exists() else root.parent
+    with TemporaryDirectory(dir=beside, prefix=".build-") as name:
         scratch = Path(name)
         for folder in FOLDERS:
             (scratch / folder).mkdir()
         write_patterns(scratch, jobs, report)
         write_completeness(scratch, report)
+        root.mkdir(exist_ok=True)
         for folder in FOLDERS:
             if (root / folder).exists():
                 (root / folder).rename(scratch / f"old-{folder}")
