@@ -8,7 +8,7 @@ import platform
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 from pathlib import Path
 from typing import NamedTuple, TypeAlias
 
@@ -28,7 +28,7 @@ from certify.kernel.evidence import (
     kernel_digest,
     strays,
 )
-from certify.kernel.hexahedron import BOUNDARIES, BOUNDARY_TYPES, boundary_letter
+from certify.kernel.hexahedron import BOUNDARIES, BOUNDARY_TYPES, Simplex, boundary_letter
 from certify.kernel.triangulation import orientation
 
 Apply: TypeAlias = Callable[[Callable[[str], Verdict], Sequence[str]], Iterable[Verdict]]
@@ -146,17 +146,22 @@ class Facts:
         """Return the sizes of the patterns' classes, in increasing order."""
         return sorted(len(self.patterns[name].instances) for name in names)
 
-    @property
+    @cached_property
+    def oriented(self) -> dict[str, dict[Simplex, int]]:
+        """Pattern -> the signs of its tetrahedra."""
+        return {name: orientation(min(v.instances)) for name, v in self.patterns.items()}
+
+    @cached_property
     def cube(self) -> set[str]:
         """The patterns that the vertices of the unit cube realize."""
-        oriented = {n: orientation(min(v.instances)) for n, v in self.patterns.items()}
-        return {name for name, signs in oriented.items() if triangulates_cube(signs)}
+        return {name for name, signs in self.oriented.items() if triangulates_cube(signs)}
 
-    @property
+    @cached_property
     def slivers(self) -> set[str]:
         """The patterns of the unit cube with slivers on core diagonals, and only with them."""
-        oriented = {n: orientation(min(v.instances)) for n, v in self.patterns.items()}
-        return {n for n, signs in oriented.items() if triangulates_finite_precision_cube(signs)}
+        return {
+            n for n, signs in self.oriented.items() if triangulates_finite_precision_cube(signs)
+        }
 
     @property
     def not_realizable(self) -> set[str]:
