@@ -35,7 +35,8 @@ class _Commands(click.Group):
         except FileExistsError as error:
             fail(f"{error.filename} is not a folder", code=2)
         except OSError as error:
-            fail(str(error), code=2)
+            reason = error.strerror or str(error)
+            fail(f"{error.filename}: {reason}" if error.filename else reason, code=2)
         sys.exit(code if isinstance(code, int) else 0)
 
     def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002 - click passes it
