@@ -25,7 +25,7 @@ def read_dimacs(text: str) -> list[Clause]:
     variables, count = -1, -1
     clauses: list[Clause] = []
     clause: list[int] = []
-    for number, line in enumerate(text.splitlines(), start=1):
+    for number, line in enumerate(text.split("\n"), start=1):
         words = line.split()
         if not words or words[0].startswith("c"):
             continue

@@ -272,6 +272,7 @@ def test_replay_of_any_proof(tmp_path: Path) -> None:
         (FORMULA, "5 2 0 1 0\n", "p.lrat: line 1: the hints do not reach a contradiction"),
         (FORMULA, "5 0 1 -2 0\n", "p.lrat: line 1: a negative hint, as in a RAT step"),
         (FORMULA, b"a\xff\0\1", "p.lrat: not ASCII text; binary formats are not read"),
+        ("p cnf 2 4\n1 2 0\n-1 2 0\nc \f1 -2 0\f-1 -2 0\n", PROOF, "but there are 2"),
         ("", PROOF, 'f.cnf: there is no header "p cnf VARIABLES CLAUSES"'),
         ("1 0\n", PROOF, "f.cnf: line 1: 1 is beyond the 0 variables announced so far"),
         ("p cnf 2 1\n3 0\n", PROOF, "f.cnf: line 2: 3 is beyond the 2 variables announced so far"),

@@ -41,6 +41,12 @@ def test_help_has_an_example(command: str) -> None:
     assert f"certify {command}" in result.output.partition("Example")[2]
 
 
+def test_no_command_prints_the_help() -> None:
+    result = CliRunner(env={"COLUMNS": "80"}).invoke(cli, [])
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert result.stderr.splitlines()[1:] == HELP.read_text().split("\n\n$ ")[0].splitlines()[2:]
+
+
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
 def test_completion(shell: str) -> None:
     result = CliRunner().invoke(cli, ["completion", shell])
