@@ -21,7 +21,6 @@ from certify.kernel.hexahedron import Simplex, sorted_with_sign
 
 Clause: TypeAlias = tuple[int, ...]
 
-VARIABLES = 2 * len(QUADRUPLES)
 _NUMBER = {quadruple: k for k, quadruple in enumerate(QUADRUPLES, start=1)}
 
 

@@ -26,6 +26,7 @@ from certify.kernel.evidence import (
     completeness_file,
     digest,
     kernel_digest,
+    proof_file,
     strays,
 )
 from certify.kernel.hexahedron import BOUNDARIES, BOUNDARY_TYPES, Simplex, boundary_letter
@@ -348,12 +349,11 @@ def theorems(verdicts: Sequence[Verdict], completeness: Iterable[Completeness]) 
         if questions is None:
             found.append(Theorem(name, statement, (), holds(facts)))
             continue
-        files = {
-            file: None
+        refutations = [
+            proof_file(pattern, question)
             for question in questions
             for pattern in sorted(facts.answering(question, "no"))
-            for file in facts.patterns[pattern].rests_on(question)
-        }
+        ]
         ok = facts.complete and all(map(facts.decides, questions)) and holds(facts)
-        found.append(Theorem(name, statement, tuple(dict.fromkeys([*everything, *files])), ok))
+        found.append(Theorem(name, statement, (*everything, *refutations), ok))
     return found
