@@ -8,6 +8,7 @@ a forgery is not about are left open: nothing else in it can be what is refused.
 
 import json
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from fractions import Fraction
 from hashlib import sha256
@@ -342,10 +343,8 @@ def _changing_tetrahedra(
         fitting = [n for n in PATTERN_NAMES if _size(n) == str(len(tetrahedra))]
         if name not in fitting:
             draft.rename(random.choice(fitting or [name]))
-        try:
+        with suppress(NotATriangulation):
             draft.record["boundary"] = boundary_letter(boundary_diagonals(tetrahedra))
-        except NotATriangulation:
-            pass
         return draft.finished()
 
     return forge
@@ -442,7 +441,7 @@ def _step_dropped(random: Random, lines: list[str]) -> None:
 
 
 def _steps_exchanged(random: Random, lines: list[str]) -> None:
-    """A step changes places with the next one or with any other; the numbers stay in order or not."""
+    """A step changes places with another, often the one before; the numbers move along or not."""
     i = random.randrange(len(lines))
     j = random.choice((max(i - 1, 0), random.randrange(len(lines))))
     first, second = _Step.read(lines[i]), _Step.read(lines[j])
