@@ -361,9 +361,7 @@ def test_other_proof_than_ascii_is_refused(root: Path) -> None:
     record = json.loads(path_of(root, NO).read_bytes())
     record["realizable"]["sha256"] = sha256(content).hexdigest()
     path_of(root, NO).write_text(json.dumps(record))
-    assert (
-        fault(root, NO) == f"realizable: {PROOF} is not ASCII text, nor is binary LRAT"
-    )
+    assert fault(root, NO) == f"realizable: {PROOF} is not ASCII text, nor is binary LRAT"
 
 
 # Anything else.
