@@ -175,7 +175,7 @@ def coherent_orientation(tetrahedra: Iterable[Face]) -> dict[Face, int]:
         ValueError: There are no such signs.
     """
     tops = list(tetrahedra)
-    count = Counter(triangle for top in tops for triangle in combinations(top, 3))
+    count = Counter(side for top in tops for _, side in _sides(top))
     signs: dict[Face, int] = {}
     wanted: dict[Face, int] = {}
     """A triangle -> the coefficient that the next tetrahedron at it is to give to it."""

@@ -21,11 +21,11 @@ them. (Two compact convex sets that are disjoint have a plane strictly between t
 Lemma 3. Let P and N be sets of points that together span R^3. If some f is 0 on P ∩ N, positive on
 the rest of P and negative on the rest of N, then so is the sum of all planes through three points
 of P ∪ N that are 0 on P ∩ N, not negative on P and not positive on N.
-Proof. The f that are 0 on P ∩ N, not negative on P and not positive on N, form a closed convex cone.
-It contains no line, because an f that is 0 on P ∪ N is 0. So it is the sum of its extreme rays. On
-such a ray, f is 0 on points that determine it up to a factor, so on three that are not in one line:
-it is one of those planes. Hence the sum is in the relative interior of the cone. At a point where
-some f in the cone is not 0, no f in the relative interior is.
+Proof. The f that are 0 on P ∩ N, not negative on P and not positive on N, form a closed convex
+cone. It contains no line, because an f that is 0 on P ∪ N is 0. So it is the sum of its extreme
+rays. On such a ray, f is 0 on points that determine it up to a factor, so on three that are not in
+one line: it is one of those planes. Hence the sum is in the relative interior of the cone. At a
+point of P or N where some f in the cone is not 0, no f in the relative interior is.
 
 So the sum is what is looked for, and what is checked in the end.
 """
@@ -57,7 +57,7 @@ def affine_through(p: Point, q: Point, r: Point) -> Callable[[Point], Number]:
 
 def planes_of(points: Sequence[Point]) -> dict[Face, Values]:
     """Return the values of the plane through any three of the points, at all of them."""
-    planes = {}
+    planes: dict[Face, Values] = {}
     for triple in combinations(range(1, len(points) + 1), 3):
         value = affine_through(*(points[v - 1] for v in triple))
         planes[triple] = tuple(map(value, points))
@@ -88,11 +88,12 @@ def separator(
     is clear, as they are a sum of such values, and that it separates is checked.
     """
     total: Values = (0,) * 8
-    for triple, values in planes.items():
-        if {*positive, *negative}.issuperset(triple):
-            for candidate in (values, tuple(-x for x in values)):
-                if is_weakly_separating(candidate, positive, negative):
-                    total = tuple(x + y for x, y in zip(total, candidate, strict=True))
+    for triple in combinations(sorted({*positive, *negative}), 3):
+        values = planes[triple]
+        if is_weakly_separating(values, positive, negative):
+            total = tuple(x + y for x, y in zip(total, values, strict=True))
+        if is_weakly_separating(values, negative, positive):
+            total = tuple(x - y for x, y in zip(total, values, strict=True))
     return total if is_separating(total, positive, negative) else None
 
 
