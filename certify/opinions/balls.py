@@ -14,7 +14,7 @@ in principle.
 """
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from itertools import combinations
 from typing import TypeAlias
 
@@ -66,21 +66,22 @@ def ball_fault(tetrahedra: Iterable[Face]) -> str | None:
     return None
 
 
-def boundary_fault(tops: Iterable[Face]) -> str | None:
+def boundary_fault(tops: Collection[Face]) -> str | None:
     """Say why the boundary is not the template's, or which facet is a tetrahedron.
 
     In each facet there are two triangles of exactly one tetrahedron, made by one of the two
     diagonals: they share an edge that is not one of the template. Such are all triangles of
     exactly one tetrahedron, and none lies in more than two.
     """
+    for facet in FACETS:
+        if facet in tops:
+            return f"{written(facet)} is a boundary tetrahedron"
     count = Counter(triangle for top in tops for triangle in combinations(top, 3))
     for triangle, times in count.items():
         if times > 2:
             return f"triangle {written(triangle)} lies in {times} tetrahedra"
     outer = {triangle for triangle, times in count.items() if times == 1}
     for facet in FACETS:
-        if facet in tops:
-            return f"{written(facet)} is a boundary tetrahedron"
         halves = [set(triangle) for triangle in outer if set(triangle) <= set(facet)]
         if len(halves) != 2 or tuple(sorted(set.intersection(*halves))) in EDGES:
             return f"facet {written(facet)} is not cut in two by a diagonal"

@@ -133,11 +133,12 @@ def halves(box: Box, axis: int) -> list[Box]:
 
 def losses(box: Box) -> dict[tuple[int, int, int], Number]:
     """Return for each monomial but the constant how far below zero its term may come."""
-    return {
-        exponents: abs(coefficient) if any(e % 2 for e in exponents) else max(0, -coefficient)
-        for exponents, coefficient in box.terms.items()
-        if any(exponents)
-    }
+    result: dict[tuple[int, int, int], Number] = {}
+    for exponents, coefficient in box.terms.items():
+        if any(exponents):
+            most = coefficient if any(e % 2 for e in exponents) else 0
+            result[exponents] = max(most, -coefficient)
+    return result
 
 
 def point_not_positive(box: Box) -> tuple[Fraction, ...] | None:
