@@ -148,6 +148,7 @@ def test_there_are_48_symmetries() -> None:
         ("1236 1236 1348 1568 3678", "a tetrahedron occurs twice"),
         ("1236 1348 1368 1568", "facet 2367 is not cut in two by a diagonal"),
         ("1236 1348 1568 3678", "16 triangles, not 12, lie in exactly one tetrahedron"),
+        ("1245 1348", "facet 1458 is not cut in two by a diagonal"),
         ("1245 1247 1257 1457 2457", "facet 1458 is not cut in two by a diagonal"),
         ("", "facet 1458 is not cut in two by a diagonal"),
         ("1326", "(1, 3, 2, 6) is not an increasing list of four of the vertices 1 to 8"),

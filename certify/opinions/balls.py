@@ -9,8 +9,8 @@ Nothing of the kernel is used, and no shelling. The tetrahedra are a triangulate
   regular neighbourhood of that point (J. H. C. Whitehead, Simplicial spaces, nuclei and m-groups,
   Proceedings of the London Mathematical Society 45, 1939).
 
-Conversely a ball has the first two properties. The third is a search, so a ball might be refused
-in principle.
+Conversely a ball has the first two properties. Only one way to collapse is tried, so a ball might
+be refused in principle.
 """
 
 from collections import Counter
@@ -131,30 +131,26 @@ def pieces(tops: Iterable[Face]) -> list[set[int]]:
     return found
 
 
-def collapses(tops: list[Face]) -> bool:
-    """Does the complex of these tetrahedra collapse to a point, in one of the orders tried?
+def collapses(tops: Iterable[Face]) -> bool:
+    """Does the complex of these tetrahedra collapse to a point, if one goes on without a plan?
 
     An elementary collapse removes a face and the only other face that contains it. Those that
     remove tetrahedra can come first, then those that remove triangles, then edges. Only how the
     tetrahedra go leaves a choice that matters: of a complex of triangles, a collapse that goes on
     as long as triangles go ends in the same way whatever its order, with a graph if any does; and
-    a graph collapses to a point iff it is a tree. So each tetrahedron in turn is tried as the
-    first in the queue.
+    a graph collapses to a point iff it is a tree. So a True is a proof, a False is none. Of the
+    patterns and all their instances none needs another choice.
     """
-    for k in range(len(tops)):
-        left = faces(tops)
-        for size in (4, 3, 2):
-            while pair := _free_pair(left, size, tops[k:] + tops[:k]):
-                left.difference_update(pair)
-        if len(left) == 1:
-            return True
-    return False
+    left = faces(tops)
+    for size in (4, 3, 2):
+        while pair := _free_pair(left, size):
+            left.difference_update(pair)
+    return len(left) == 1
 
 
-def _free_pair(left: set[Face], size: int, queue: list[Face]) -> tuple[Face, Face] | None:
-    """Return a face of ``size`` vertices and a facet of it that is in no other face."""
-    candidates = queue if size == 4 else sorted(left)
-    large = [face for face in candidates if len(face) == size and face in left]
+def _free_pair(left: set[Face], size: int) -> tuple[Face, Face] | None:
+    """Return a face of ``size`` vertices and a facet of it that is in no other such face."""
+    large = sorted(face for face in left if len(face) == size)
     count = Counter(small for face in large for small in combinations(face, size - 1))
     for face in large:
         for small in combinations(face, size - 1):
