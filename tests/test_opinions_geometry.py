@@ -115,6 +115,12 @@ def test_every_pattern_is_a_ball() -> None:
     assert len(PATTERNS) == 174
 
 
+@pytest.mark.slow
+def test_every_instance_is_a_ball() -> None:
+    for pattern in PATTERNS.values():
+        assert not any(map(ball_fault, instances(pattern["tetrahedra"])))
+
+
 def test_every_pattern_is_oriented_in_the_same_way() -> None:
     for pattern in PATTERNS.values():
         assert coherent_orientation(pattern["tetrahedra"]) == orientation(pattern["tetrahedra"])
