@@ -392,26 +392,72 @@ def edge_families(diagonals: Iterable[Vertices]) -> list[Named]:
     return [("edges", clause) for clause in clauses]
 
 
-def vertex_excess(diagonals: Iterable[Vertices], chosen: Iterable[Vertices], vertex: int) -> int:
-    """Return by how much the number of tetrahedra at a vertex exceeds b - 2 + 2i.
+def is_or(variable: int, *cases: Iterable[int]) -> list[Clause]:
+    """Return the clauses of: the variable is true iff all literals of one of the cases are."""
+    clauses = [frozenset({variable, *(-x for x in case)}) for case in cases]
+    return clauses + [frozenset({-variable, *choice}) for choice in product(*cases)]
 
-    b counts the boundary triangles at the vertex, i the edges of tetrahedra there that are not
-    in the boundary. The family "vertices" says that this is zero. Its clauses use further
-    variables with a numbering of the kernel's own; so they are compared by what they say.
+
+class Definitions:
+    """The variables from 65 on, in the order in which they are defined, and their clauses."""
+
+    def __init__(self) -> None:
+        self.last = len(TETRAHEDRA)
+        self.clauses: list[Clause] = []
+
+    def define(self, *cases: Iterable[int]) -> int:
+        """Return a new variable that is true iff all literals of one of the cases are."""
+        self.last += 1
+        self.clauses += is_or(self.last, *cases)
+        return self.last
+
+    def at_least(self, literals: list[int], most: int) -> list[int]:
+        """Return the variables for: at least 1, ..., at least ``most`` of the literals are true.
+
+        At least j of the first n are iff at least j of the first n - 1 are, or the n-th is and at
+        least j - 1 of the first n - 1.
+        """
+        before: list[int] = []
+        for literal in literals:
+            now = []
+            for j in range(min(len(before) + 1, most)):
+                newly = [literal, before[j - 1]] if j else [literal]
+                now.append(self.define(*([[before[j]]] if j < len(before) else []), newly))
+            before = now
+        return before
+
+
+def vertex_families(diagonals: Iterable[Vertices]) -> list[Named]:
+    """At a vertex with b boundary triangles and i inner edges there are b - 2 + 2i tetrahedra.
+
+    Said of all i from 0 to the greatest possible: if there are at least i inner edges, then at
+    least b - 2 + 2i tetrahedra, and if not more than i, then not more than so many.
     """
-    here = [t for t in chosen if vertex in t]
-    b = sum(vertex in triangle for triangle in boundary_triangles(diagonals))
-    used = {e for t in here for e in combinations(t, 2) if vertex in e}
-    return len(here) - (b - 2 + 2 * len(used - boundary_edges(diagonals)))
+    cuts = list(diagonals)
+    defined = Definitions()
+    outer = boundary_edges(cuts)
+    inner = [edge for edge in combinations(VERTICES, 2) if edge not in outer]
+    used = {edge: defined.define(*([k] for k in on(edge))) for edge in inner}
+    for v in VERTICES:
+        base = sum(v in triangle for triangle in boundary_triangles(cuts)) - 2
+        here = [used[edge] for edge in inner if v in edge]
+        inner_edges = defined.at_least(here, len(here))
+        tetrahedra = defined.at_least(on([v]), base + 2 * len(here) + 1)
+        for i in range(len(here) + 1):
+            enough, too_many = tetrahedra[base + 2 * i - 1], tetrahedra[base + 2 * i]
+            fewer = {-inner_edges[i - 1]} if i else set()
+            more = {inner_edges[i]} if i < len(here) else set()
+            defined.clauses += [frozenset({*fewer, enough}), frozenset({*more, -too_many})]
+    return [("vertices", clause) for clause in defined.clauses]
 
 
 def completeness(diagonals: Iterable[Vertices], known: Iterable[Iterable[Vertices]]) -> list[Named]:
-    """Return the clauses of a triangulation not among the known ones, without family "vertices".
+    """Return the clauses of a triangulation with the boundary that is not among the known ones.
 
     diagonals: the six of the boundary; known: sets of tetrahedra.
     """
     cuts = list(diagonals)
-    clauses = [*triangle_families(cuts), *edge_families(cuts)]
+    clauses = [*triangle_families(cuts), *edge_families(cuts), *vertex_families(cuts)]
     for chosen in map(set, known):
         clause = frozenset(-k if t in chosen else k for k, t in enumerate(TETRAHEDRA, start=1))
         clauses.append(("known", clause))
