@@ -13,12 +13,12 @@ to T through triangles at v, and never leaves S. So while the search has a prope
 triangle needs a tetrahedron, and B has exactly one that can be added there: one branch leads to B,
 and only one.
 
-*Nothing is pruned that could become a ball.* In a ball the link of an edge is a single path, from
-end to end of the fan, or a single cycle. So a cycle in the link of an edge is the whole link, and
-so is a path between the two ends. The link of a vertex is a disc.
+*What is found.* Where no triangle needs a tetrahedron, the set is kept if the link of each edge is
+one path, one cycle or empty, and that of each vertex a disc. All this holds in a ball. A set that
+is kept is a 3-manifold with the given boundary; that it is a ball is for the kernel's shelling to
+show.
 
-*What is found* are the sets in which all vertices have discs for links. Such a set is a 3-manifold
-with the given boundary; that it is a ball is for the kernel's shelling to show.
+Nothing is pruned: the whole search visits some 700,000 sets, and takes less than half a minute.
 """
 
 from collections.abc import Callable, Iterable
@@ -72,77 +72,58 @@ class Search:
 
     boundary: frozenset[Vertices]
     found: set[Triangulation] = field(default_factory=set)
-    steps: int = 0
-    """How many sets of tetrahedra were looked at."""
-
-    def __post_init__(self) -> None:
-        self.room = {t: 1 if t in self.boundary else 2 for t in TRIANGLES}
-        self.ends = {
-            edge: {v for v in VERTICES if tuple(sorted({*edge, v})) in self.boundary}
-            for edge in EDGES
-        }
+    visited: int = 0
+    """How many sets of tetrahedra there were on the way, the closed ones included."""
+    closed: int = 0
+    """How many closed sets."""
 
     def extend(self, chosen: int, barred: int) -> None:
-        """Find all that contain the chosen tetrahedra and none of the barred ones."""
-        self.steps += 1
+        """Find all that contain the chosen tetrahedra and none of the barred ones.
+
+        Those on a triangle that has all its tetrahedra are barred, except the chosen ones.
+        """
+        self.visited += 1
         places = self.places(chosen, barred)
         if not places:
-            if self.is_manifold(chosen):
+            self.closed += 1
+            if is_manifold(chosen):
                 self.found.add(frozenset(TETRAHEDRA[k] for k in members(chosen)))
             return
         for k in members(min(places, key=int.bit_count)):
             larger = chosen | 1 << k
-            if self.links_can_be_completed(larger, TETRAHEDRA[k]):
-                self.extend(larger, barred | self.filled_by(larger, TETRAHEDRA[k]))
+            self.extend(larger, barred | self.filled(larger, TETRAHEDRA[k]))
 
     def places(self, chosen: int, barred: int) -> list[int]:
         """Return, for each triangle that needs a tetrahedron, those that could be added there."""
-        return [
-            ON[triangle] & ~chosen & ~barred
-            for triangle, room in self.room.items()
-            if (ON[triangle] & chosen).bit_count() == room - 1
-            and (room == 1 or ON[triangle] & chosen)
-        ]
+        places = []
+        for triangle in TRIANGLES:
+            there = (ON[triangle] & chosen).bit_count()
+            if there == 0 if triangle in self.boundary else there == 1:
+                places.append(ON[triangle] & ~chosen & ~barred)
+        return places
 
-    def filled_by(self, chosen: int, newcomer: Vertices) -> int:
+    def filled(self, chosen: int, newcomer: Vertices) -> int:
         """Return the tetrahedra on those triangles of the newcomer that now have all they may."""
         full = 0
         for triangle in combinations(newcomer, 3):
-            if (ON[triangle] & chosen).bit_count() == self.room[triangle]:
+            if triangle in self.boundary or (ON[triangle] & chosen).bit_count() == 2:
                 full |= ON[triangle]
         return full
 
-    def links_can_be_completed(self, chosen: int, newcomer: Vertices) -> bool:
-        """Can the links of the newcomer's edges still become single paths or cycles?"""
-        return all(self.edge_is_fine(edge, chosen) for edge in combinations(newcomer, 2))
 
-    def edge_is_fine(self, edge: Vertices, chosen: int) -> bool:
-        """Is there no complete path or cycle in the edge's link, or nothing else?
+def link(face: Vertices, chosen: int) -> list[set[int]]:
+    """Return the simplices of the link of a face: what completes it to chosen tetrahedra."""
+    return [set(TETRAHEDRA[k]) - set(face) for k in members(ON[face] & chosen)]
 
-        No triangle has more than its room. So each component of the link is a path or a cycle. It
-        is complete if it is a cycle, or a path between the two ends of the fan.
-        """
-        arcs = [set(TETRAHEDRA[k]) - set(edge) for k in members(ON[edge] & chosen)]
-        parts = components(arcs)
-        ends = self.ends[edge]
-        for part in parts:
-            points = set().union(*part)
-            closed = len(points) == len(part)
-            ended = bool(ends) and ends <= points
-            if (closed and ends) or ((closed or ended) and len(parts) > 1):
-                return False
-        return True
 
-    def is_manifold(self, chosen: int) -> bool:
-        """Are the links of all edges single paths or cycles, and those of all vertices discs?"""
-        edges_fine = all(
-            len(components([set(TETRAHEDRA[k]) - set(edge) for k in members(ON[edge] & chosen)]))
-            <= 1
-            for edge in EDGES
-        )
-        return edges_fine and all(
-            is_disc([set(TETRAHEDRA[k]) - {v} for k in members(ON[v,] & chosen)]) for v in VERTICES
-        )
+def is_manifold(chosen: int) -> bool:
+    """Are the links of edges single paths or cycles, or empty, and those of vertices discs?
+
+    The set is closed; so each component of an edge's link is a path or a cycle.
+    """
+    return all(len(components(link(edge, chosen))) <= 1 for edge in EDGES) and all(
+        is_disc(link((v,), chosen)) for v in VERTICES
+    )
 
 
 def components(cells: list[set[int]]) -> list[list[set[int]]]:
@@ -156,9 +137,10 @@ def components(cells: list[set[int]]) -> list[list[set[int]]]:
 
 
 def is_disc(triangles: list[set[int]]) -> bool:
-    """Is a surface with a boundary, whose vertices have single paths or cycles, a disc?
+    """Is a surface with a boundary a disc?
 
-    It is iff it is connected and has Euler characteristic one.
+    It is iff it is connected and has Euler characteristic one. That it is a surface means that the
+    link of each vertex in it is a single path or cycle.
     """
     faces = {face for t in triangles for n in (1, 2, 3) for face in combinations(sorted(t), n)}
     return len(components(triangles)) == 1 and sum((-1) ** (len(f) - 1) for f in faces) == 1
@@ -170,5 +152,8 @@ def triangulations(
     """Return all triangulations of the hexahedron whose boundary has these six diagonals."""
     search = Search(boundary_of(diagonals))
     search.extend(0, 0)
-    report(f"{len(search.found)} triangulations among {search.steps} sets of tetrahedra")
+    report(
+        f"{len(search.found)} triangulations among {search.closed} closed sets, "
+        f"{search.visited} sets visited"
+    )
     return search.found
