@@ -161,7 +161,7 @@ def check_all(*, root: Path | str | None = None, jobs: int = 1) -> Outcome:
 
     >>> outcome = check_all()
     >>> outcome.ok, len(outcome.verdicts), sum(theorem.ok for theorem in outcome.theorems)
-    (True, 174, 15)
+    (True, 174, 16)
     """
     if type(jobs) is not int or jobs < 1:
         raise ValueError(f"jobs is {jobs!a}, but it must be a positive integer")

@@ -97,9 +97,9 @@ def test_kernel_needs_nothing_else_at_run_time(shipped: Path) -> None:
     code, output = run(shipped, "-c", ALONE)
     *lines, last = output.splitlines()
     assert code == 0
-    assert len(lines) == 15
+    assert len(lines) == 16
     assert all(line.startswith("ok: ") for line in lines)
-    assert json.loads(last)["theorems"] == 15
+    assert json.loads(last)["theorems"] == 16
 
 
 @pytest.mark.slow

@@ -9,11 +9,11 @@ from typing import Any
 import pytest
 from pysat.solvers import Cadical153
 
-from certify import paper
 from certify.audit import CHECKS, VERDICTS, Claim, Finding, audit, corrections, summary
 from certify.audit.checks import Inputs
 from certify.audit.claims import THEOREMS, Accepted, BadClaims, decide, load, load_shipped
 from certify.audit.matroids import Formula, uniform_sign_vectors
+from certify.kernel import names
 from certify.kernel.certificate import PATTERN_NAMES, QUESTIONS, Certificate, No
 from certify.kernel.check import Verdict
 from certify.kernel.chirotope import QUADRUPLES
@@ -421,11 +421,11 @@ def test_sign_vectors_are_those_of_a_solver(inputs: Inputs) -> None:
                 solver.add_clause([-literal for literal in solver.get_model()])
         return found
 
-    for formula, names in (
-        (realization_formula, sorted(paper.BOLD)),
-        (convex_formula, [*sorted(paper.UNDERLINED), "5_A", "15_C"]),
+    for formula, patterns in (
+        (realization_formula, sorted(names.BOLD)),
+        (convex_formula, [*sorted(names.UNDERLINED), "5_A", "15_C"]),
     ):
-        for name in names:
+        for name in patterns:
             ours = uniform_sign_vectors(min(inputs.patterns[name].instances), formula)
             assert (2 if ours is None else len(ours)) == solutions(name, formula), name
 

@@ -1,7 +1,6 @@
 """The commands that show evidence: list, show, export."""
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -11,13 +10,11 @@ from certify.kernel.hexahedron import CORNERS
 from certify.kernel.refutation import replay
 from tests.commands import (
     CHECKOUT,
-    NO_FILES,
     assert_rejects,
     assert_usage_error,
     five_a,
     run,
     run_json,
-    to_outside,
     write,
 )
 
@@ -95,9 +92,9 @@ def test_export_of_a_refutation(root: Path) -> None:
     code, out, _ = run(root, "export", "15_A", "realizable", "--to", str(to))
     assert code == 0
     assert len(out.splitlines()) == 3
-    for suffix in ("lrat", "drat"):
-        name = f"15_A.realizable.{suffix}"
-        assert (to / name).read_bytes() == (root / "proofs" / name).read_bytes()
+    proof = (to / "15_A.realizable.lrat").read_bytes()
+    assert proof == (root / "proofs" / "15_A.realizable.lrat").read_bytes()
+    assert_drat_has_the_lemmas(to / "15_A.realizable")
     lines = (to / "15_A.realizable.cnf").read_text(encoding="ascii").splitlines()
     comments = [line for line in lines if line.startswith("c ")]
     header, *clauses = lines[len(comments) :]
@@ -113,7 +110,7 @@ def test_export_of_points(root: Path) -> None:
     code, out, _ = run(root, "export", "5_A", "convex", "--to", str(root))
     assert (code, out) == (0, f"5_A convex: {root / '5_A.convex.json'}\n")
     record = json.loads((root / "5_A.convex.json").read_text())
-    assert record["tetrahedra"] == five_a()["tetrahedra"]
+    assert [sorted(row) for row in record["tetrahedra"]] == five_a()["tetrahedra"]
     assert record["points"] == [list(corner) for corner in CORNERS.values()]
 
 
@@ -143,17 +140,6 @@ def test_export_to_no_folder(root: Path) -> None:
     assert_usage_error(run(root, "export", "5_A", "valid", "--to", str(file / "below")), "file")
 
 
-@pytest.mark.parametrize("place", [*NO_FILES, to_outside])
-def test_export_without_a_regular_drat_file(root: Path, place: Callable[[Path], None]) -> None:
-    path = root / "proofs" / "15_A.realizable.drat"
-    path.unlink()
-    place(path)
-    to = root / "exported"
-    outcome = run(root, "export", "15_A", "realizable", "--to", str(to))
-    assert_rejects(outcome, path.name, "")
-    assert not to.exists()
-
-
 @pytest.mark.parametrize("letter", ["a", "g"])
 def test_export_of_completeness(tmp_path: Path, letter: str) -> None:
     code, _, _ = run(CHECKOUT, "export", "complete", letter, "--to", str(tmp_path))
@@ -162,8 +148,13 @@ def test_export_of_completeness(tmp_path: Path, letter: str) -> None:
     lines = Path(f"{stem}.cnf").read_text().splitlines()
     formula = [tuple(map(int, line.split()[:-1])) for line in lines if line[0] not in "cp"]
     replay(formula, Path(f"{stem}.lrat").read_text())
-    lemmas = Path(f"{stem}.lrat").read_text().splitlines()
-    assert len(Path(f"{stem}.drat").read_text().splitlines()) == len(lemmas)
+    assert_drat_has_the_lemmas(stem)
+
+
+def assert_drat_has_the_lemmas(stem: Path) -> None:
+    steps = [line.split() for line in Path(f"{stem}.lrat").read_text().splitlines()]
+    lemmas = [" ".join(step[1 : step.index("0") + 1]) for step in steps]
+    assert Path(f"{stem}.drat").read_text().splitlines() == lemmas
 
 
 def test_export_of_completeness_needs_all_patterns(root: Path) -> None:

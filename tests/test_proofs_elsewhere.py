@@ -100,22 +100,11 @@ def test_proofs_are_those_that_are_named(
     named += [proved.path for proved in completions.values()]
     stems = [f"proofs/{path.stem}" for path in map(Path, named)]
     files = [f"proofs/{path.name}" for path in (shipped / "proofs").iterdir()]
-    assert sorted(files) == sorted(f"{stem}.{end}" for stem in stems for end in ("drat", "lrat"))
+    assert sorted(files) == sorted(f"{stem}.lrat" for stem in stems)
     assert Counter(stem.rpartition(".")[2] for stem in stems) == {
         **{question: len(proofs) for question, proofs in refutations.items()},
         **dict.fromkeys(BOUNDARY_TYPES, 1),
     }
-
-
-def test_drat_is_lrat_without_hints(
-    shipped: Path, refutations: dict[str, list[Proved]], completions: dict[str, Proved]
-) -> None:
-    for proved in [*completions.values(), *(p for proofs in refutations.values() for p in proofs)]:
-        lines = (shipped / proved.path).with_suffix(".drat").read_text().splitlines()
-        assert [tuple(map(int, line.split())) for line in lines] == [
-            (*lemma, 0) for lemma in proved.lemmas
-        ]
-        assert proved.lemmas.index(()) == len(proved.lemmas) - 1
 
 
 # A checker that ignores hints.

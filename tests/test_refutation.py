@@ -235,8 +235,30 @@ def test_malformed_line(step: str) -> None:
 
 @pytest.mark.parametrize("step", ["5 2 0 -1 2 0", "5 2 0 1 -2 3 0", "5 0 -1 0"])
 def test_rat_steps_are_told_apart(step: str) -> None:
-    why = "line 1: a negative hint, as in a RAT step: only unit propagation is replayed"
+    why = "line 1: a hint is negative: RAT steps are outside this format"
     assert reason(SQUARE, step) == why
+
+
+def test_binary_lrat_is_told_apart() -> None:
+    why = "line 1: the binary form of LRAT is outside this format"
+    assert reason(SQUARE, "a\n\4\0\2\4\0".replace("\n", "\5")) == why
+
+
+@pytest.mark.parametrize(
+    ("step", "why"),
+    [
+        ("5 2 2 0 1 2 0", "variable 2 occurs 2 times"),
+        ("5 2 1 -2 0 1 2 0", "variable 2 occurs 2 times"),
+        ("5 2 0 1 1 2 0", "hint 1 occurs 2 times"),
+    ],
+)
+def test_nothing_is_repeated(step: str, why: str) -> None:
+    """So that the time to replay a proof is bounded by its length alone."""
+    assert reason(SQUARE, f"{step}\n{PROOF}") == f"line 1: {why}"
+
+
+def test_a_clause_of_the_formula_may_repeat_a_literal() -> None:
+    assert replay([(1, 1), (-1, -1, -1)], "3 0 1 2 0") == 1
 
 
 # Final polynomials.

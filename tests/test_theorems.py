@@ -18,6 +18,7 @@ from certify.kernel.certificate import PATTERN_NAMES, QUESTIONS
 from certify.kernel.check import Completeness, Verdict
 from certify.kernel.cube import TETRAHEDRON_TYPES, triangulates_cube
 from certify.kernel.evidence import certificate_file, completeness_file, proof_file
+from certify.kernel.names import LETTERS
 from certify.kernel.theorems import Theorem, check_all, theorems
 from certify.kernel.triangulation import orientation
 from tests.geometry import (
@@ -40,7 +41,15 @@ ALL = [theorem.id for theorem in theorems([], [])]
 OF_THE_TEMPLATE = ["boundaries", "tetrahedra"]
 OF_THE_LIST = ["patterns", "sizes", "letters", "instances"]
 OF_THE_CUBE = ["cube", "finite-precision-cube", "ten"]
-OF_SPACE = ["realizable", "realizable-sizes", "convex", "valid", "not-valid", "valid-sizes"]
+OF_SPACE = [
+    "realizable",
+    "realizable-sizes",
+    "convex",
+    "names",
+    "valid",
+    "not-valid",
+    "valid-sizes",
+]
 
 every_theorem = pytest.mark.parametrize("name", ALL)
 every_theorem_about_patterns = pytest.mark.parametrize(
@@ -86,6 +95,7 @@ QUESTIONS_OF = {
     "realizable": ["realizable"],
     "realizable-sizes": ["realizable"],
     "convex": ["realizable", "convex"],
+    "names": ["realizable", "convex"],
     "valid": ["valid"],
     "not-valid": [*QUESTIONS],
     "valid-sizes": ["valid"],
@@ -218,6 +228,30 @@ def test_open_answers_are_not_counted_as_the_others(
     assert theorem not in shown(answering(verdicts, name, question, "open"), completeness)
 
 
+@pytest.mark.parametrize(
+    ("one", "other"),
+    [
+        pytest.param("8_A", "8_B", id="other letter"),
+        pytest.param("15_I", "15_K", id="other status"),
+        pytest.param("15_A", "15_C", id="bold"),
+        pytest.param("8_B", "8_C", id="same cell"),
+        pytest.param("15_F", "15_G", id="same cell, but 15_G is last"),
+        pytest.param("15_G", "15_H", id="same cell, and 15_G is last"),
+        pytest.param("13_S", "13_T", id="letters as printed"),
+    ],
+)
+def test_no_two_patterns_can_exchange_their_names(
+    verdicts: Verdicts, completeness: list[Completeness], one: str, other: str
+) -> None:
+    exchanged = {
+        one: replace(verdicts[other], pattern=one),
+        other: replace(verdicts[one], pattern=other),
+    }
+    still = shown(verdicts | exchanged, completeness)
+    assert "names" not in still
+    assert still >= {*OF_THE_TEMPLATE, *OF_THE_LIST}
+
+
 # What they state, counted again from the files and from scratch.
 
 
@@ -346,6 +380,7 @@ COUNTED: dict[str, Callable[[Shipped], list[object]]] = {
         len(said.records),
         *(sum(r["boundary"] == letter for r in said.records.values()) for letter in "abcdefg"),
     ],
+    "names": lambda said: [n for n, r in said.records.items() if r["boundary"] != LETTERS[n]],
     "instances": lambda said: [
         len(said.records),
         *sorted(set(said.classes.values())),

@@ -17,6 +17,7 @@ from sympy.polys.rings import ring
 from certify import paper
 from certify.audit.examples import DENTED, IN_THE_PLANE, ON_A_SPHERE
 from certify.graphs import edges
+from certify.kernel import names
 from certify.kernel.certificate import PATTERN_COUNTS
 from certify.kernel.check import Verdict
 from certify.kernel.chirotope import QUINTUPLES, RELATIONS, Point, Term, chirotope, dependence
@@ -43,9 +44,9 @@ class Inputs(NamedTuple):
     patterns: Mapping[str, Verdict]
     """Name -> verdict, for the patterns whose tetrahedra were accepted."""
     table_1: Mapping[str, tuple[Row, int]] = paper.TABLE_1
-    letters: Mapping[str, str] = paper.LETTERS
-    bold: frozenset[str] = paper.BOLD
-    underlined: frozenset[str] = paper.UNDERLINED
+    letters: Mapping[str, str] = names.LETTERS
+    bold: frozenset[str] = names.BOLD
+    underlined: frozenset[str] = names.UNDERLINED
     no_matroid: tuple[str, ...] = paper.NO_UNIFORM_MATROID
     edges: tuple[str, ...] = paper.EDGES
     facets: tuple[str, ...] = paper.FACETS

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import asdict
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
@@ -30,6 +31,8 @@ from certify.cli.common import (
 
 if TYPE_CHECKING:
     from certify.kernel.check import Verdict
+    from certify.kernel.theorems import Outcome
+    from certify.opinions.second import Opinion
 
 MAX_REPLAY_BYTES = 1 << 28
 
@@ -44,10 +47,19 @@ MAX_REPLAY_BYTES = 1 << 28
     metavar="FILE",
     help="Write JUnit XML as well.",
 )
-def check_all(jobs: int, root: Path | None, as_json: bool, junit: Path | None) -> None:
+@click.option(
+    "--second-opinion",
+    is_flag=True,
+    help="Ask every accepted answer again, by other code and by other checkers.",
+)
+def check_all(
+    jobs: int, root: Path | None, as_json: bool, junit: Path | None, second_opinion: bool
+) -> None:
     """Check everything, and print the theorems that follow.
 
-    Each of the 174 certificates is checked; --jobs shares the work between processes.
+    Each of the 174 certificates is checked; --jobs shares the work between processes. With
+    --second-opinion a difference between the kernel and another opinion is a failure; what did
+    not run is named.
     """
     start = perf_counter()
     from certify import report
@@ -62,11 +74,34 @@ def check_all(jobs: int, root: Path | None, as_json: bool, junit: Path | None) -
     summary = report.summary(outcome, seconds)
     if junit:
         junit.write_bytes(report.junit(outcome, seconds))
+    opinions = _second_opinions(folder, outcome, jobs) if second_opinion else []
     if as_json:
-        print_json(summary)
+        extra = {"second_opinions": list(map(asdict, opinions))} if second_opinion else {}
+        print_json(summary | extra)
     else:
         _print_summary(summary, outcome.verdicts)
-    exit_with(outcome.ok)
+        _print_opinions(opinions)
+    exit_with(outcome.ok and not any(opinion.faults for opinion in opinions))
+
+
+def _second_opinions(root: Path, outcome: Outcome, jobs: int) -> list[Opinion]:
+    from certify.opinions.second import second_opinions
+
+    with progress() as show:
+        return second_opinions(root, outcome, jobs, show)
+
+
+def _print_opinions(opinions: Sequence[Opinion]) -> None:
+    """Print a line for every opinion, and one for everything on which it differs."""
+    for opinion in opinions:
+        agree = opinion.asked - len(opinion.faults)
+        if opinion.absent:
+            print_wrapped(f"did not run: {opinion.name}: {opinion.absent}")
+        else:
+            status = "differs" if opinion.faults else "agrees"
+            print_wrapped(f"{status}: {opinion.name}: {agree} of {opinion.asked}, {opinion.means}")
+        for fault in opinion.faults:
+            click.echo(f"differs: {opinion.name}: {fault}")
 
 
 @click.command(epilog=examples("certify check 15_A 8_E"))

@@ -86,7 +86,9 @@ def show(pattern: str, root: Path | None, as_json: bool) -> None:
 
 
 @click.command(
-    epilog=examples("certify export 15_A realizable --to out", "certify export complete g --to out")
+    epilog=examples(
+        "certify export 15_A realizable --to out", "certify export complete g --core --to out"
+    )
 )
 @click.argument("pattern")
 @click.argument("question", shell_complete=lambda *_: ["realizable", "convex", "valid"])
@@ -97,14 +99,16 @@ def show(pattern: str, root: Path | None, as_json: bool) -> None:
     required=True,
     help="Folder to write to.",
 )
+@click.option("--core", is_flag=True, help="Of a formula only the clauses that its proof names.")
 @root_option
-def export(pattern: str, question: str, to: Path, root: Path | None) -> None:
+def export(pattern: str, question: str, to: Path, core: bool, root: Path | None) -> None:
     """Write the evidence for one answer for other programs.
 
     Nothing is written unless the kernel accepts it.
 
     QUESTION is realizable, convex or valid. For a no: the refuted formula as DIMACS, with the proof
-    as LRAT and as DRAT. For a yes: the points and the tetrahedra as JSON.
+    as LRAT and as DRAT. For a yes: the points and the tetrahedra as JSON, each tetrahedron with
+    its vertices in an order in which its volume is positive.
 
     With "complete" for PATTERN and a letter a..g for QUESTION: the formula and the proofs that no
     pattern with this type of boundary is missing.
@@ -115,16 +119,16 @@ def export(pattern: str, question: str, to: Path, root: Path | None) -> None:
     folder = existing_root(root)
     try:
         if pattern == "complete":
-            written = _export_completeness(folder, question, to)
+            written = _export_completeness(folder, question, to, core)
         else:
-            written = _export_answer(folder, pattern, question, to)
+            written = _export_answer(folder, pattern, question, to, core)
     except Malformed as error:
         fail(f"rejected: {error}", code=1)
     for path in written:
         click.echo(f"{pattern} {question}: {printable(str(path))}")
 
 
-def _export_completeness(root: Path, letter: str, to: Path) -> list[Path]:
+def _export_completeness(root: Path, letter: str, to: Path, core: bool) -> list[Path]:
     from certify.export import export_completeness
     from certify.kernel.hexahedron import BOUNDARY_TYPES
     from certify.run import run
@@ -134,10 +138,10 @@ def _export_completeness(root: Path, letter: str, to: Path) -> list[Path]:
     outcome = run(root)
     if outcome.faults:
         fail(f"rejected: {outcome.faults[0]}", code=1)
-    return export_completeness(root, letter, outcome.verdicts, to)
+    return export_completeness(root, outcome, letter, to, core)
 
 
-def _export_answer(root: Path, name: str, question: str, to: Path) -> list[Path]:
+def _export_answer(root: Path, name: str, question: str, to: Path, core: bool) -> list[Path]:
     from certify.export import export_answer
     from certify.kernel.certificate import QUESTIONS
     from certify.kernel.check import check_pattern
@@ -150,7 +154,7 @@ def _export_answer(root: Path, name: str, question: str, to: Path) -> list[Path]
         fail(verdict_line(verdict), code=1)
     if verdict.answers[question] == "open":
         fail(f"{pattern} {question} is open: there is nothing to export", code=2)
-    return export_answer(root, verdict.certificate, question, to)
+    return export_answer(root, verdict.certificate, question, to, core)
 
 
 def _print_claims(records: Sequence[dict[str, Any]], note: str) -> None:

@@ -3,5 +3,5 @@
 Standard library and sympy only; nothing outside this package is imported. Its own door is
 ``python -m certify.kernel [ROOT]``. Read the modules in this order: hexahedron, triangulation,
 chirotope, embedding, jacobian, orientations, refutation, validity, completeness, evidence,
-certificate, check, cube, theorems.
+certificate, check, names, cube, theorems.
 """

@@ -8,8 +8,10 @@ from dataclasses import dataclass, field
 from hashlib import sha256
 from pathlib import Path
 
-MAX_CERTIFICATE_BYTES = 1 << 20
-MAX_PROOF_BYTES = 1 << 24
+MAX_CERTIFICATE_BYTES = 1 << 16
+"""About twenty times the largest certificate that ships (15_G.json, 3,441 bytes)."""
+MAX_PROOF_BYTES = 1 << 20
+"""About four times the longest proof that ships (complete.g.lrat, 267,762 bytes)."""
 
 
 class Malformed(ValueError):
@@ -42,16 +44,23 @@ class Evidence:
             raise Malformed(f"{name} is not in the folder of proofs")
         content = self._read(name, MAX_PROOF_BYTES)
         if digest not in (None, self.files[name]):
-            raise Malformed(f"the SHA-256 of {name} is not the one that the certificate states")
+            what = f"the SHA-256 of {name} is not the one that the certificate states"
+            raise Malformed(what + _if_converted(content, digest))
         try:
             return content.decode("ascii")
         except UnicodeDecodeError:
-            raise Malformed(f"{name} is not ASCII text") from None
+            raise Malformed(f"{name} is not ASCII text, nor is binary LRAT") from None
 
     def _read(self, name: str, limit: int) -> bytes:
         content = read_file(self.root / name, limit)
         self.files[name] = sha256(content).hexdigest()
         return content
+
+
+def _if_converted(content: bytes, digest: str | None) -> str:
+    """Return what to add where the digest would fit if lines ended at a line feed alone."""
+    as_written = content.replace(b"\r\n", b"\n")
+    return "; its line ends were converted" if sha256(as_written).hexdigest() == digest else ""
 
 
 def read_file(path: Path, limit: int) -> bytes:

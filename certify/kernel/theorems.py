@@ -30,6 +30,7 @@ from certify.kernel.evidence import (
     strays,
 )
 from certify.kernel.hexahedron import BOUNDARIES, BOUNDARY_TYPES, Simplex, boundary_letter
+from certify.kernel.names import mean_what_the_table_says
 from certify.kernel.triangulation import orientation
 
 Apply: TypeAlias = Callable[[Callable[[str], Verdict], Sequence[str]], Iterable[Verdict]]
@@ -299,6 +300,14 @@ _STATEMENTS = (
         "Exactly 158 of the 174 triangulations are realizable in convex position; 13 more are "
         "realizable, but only with a vertex in the interior of the hull.",
         lambda facts: len(facts.answering("convex", "yes")) == 158 and len(facts.not_convex) == 13,
+    ),
+    _Statement(
+        "names",
+        ("realizable", "convex"),
+        "Every pattern has the size, the letter and the status of its name in the paper's big "
+        "table, but for the letters of 13_S, 13_T, 13_W and 13_X, which are c, d, g and f; and no "
+        "two patterns of a cell can exchange their names.",
+        lambda facts: mean_what_the_table_says(facts.patterns),
     ),
     _Statement(
         "valid",

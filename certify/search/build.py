@@ -28,7 +28,7 @@ from certify.search.enumeration import Pattern, patterns
 from certify.search.final_polynomials import refute_with_polynomials
 from certify.search.naming import assign_names
 from certify.search.placement import place
-from certify.search.refutations import Step, drat, lrat, model, refute
+from certify.search.refutations import Step, lrat, model, refute
 
 
 class Refutation(NamedTuple):
@@ -163,10 +163,9 @@ def write_answer(root: Path, stem: str, finding: Finding) -> dict[str, Any]:
 
 
 def write_proof(path: Path, steps: list[Step]) -> str:
-    """Write a proof as LRAT, and beside it as DRAT; return the digest of the former."""
+    """Write a proof as LRAT; return its digest."""
     proof = lrat(steps).encode("ascii")
     path.write_bytes(proof)
-    path.with_suffix(".drat").write_bytes(drat(steps).encode("ascii"))
     return sha256(proof).hexdigest()
 
 

@@ -8,7 +8,8 @@ from collections import Counter, defaultdict
 from collections.abc import Mapping, Sequence
 
 from certify.kernel.certificate import PATTERN_NAMES
-from certify.paper import LETTERS, printed_status, size
+from certify.kernel.names import LETTERS
+from certify.paper import printed_status, size
 
 
 def assign_names(facts: Sequence[tuple[int, str, str]]) -> list[str]:

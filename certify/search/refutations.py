@@ -55,11 +55,6 @@ def lrat(steps: Sequence[Step]) -> str:
     )
 
 
-def drat(steps: Sequence[Step]) -> str:
-    """Return the proof in the DRAT format: the clauses alone."""
-    return "".join(f"{' '.join(map(str, (*step.clause, 0)))}\n" for step in steps)
-
-
 def trim(formula: Sequence[Clause], lemmas: Sequence[Clause]) -> list[Step]:
     """Return, with hints, the lemmas that the last one needs (Wetzler, Heule and Hunt 2014)."""
     clauses = [*formula, *lemmas]
