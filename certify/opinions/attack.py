@@ -3,14 +3,14 @@
 Each forgery ends in one of three ways. The kernel refuses it; or it accepts something that is true;
 or it accepts something that is false, and then the kernel is wrong. Truth is established without
 the code that accepted it. Triangulations are judged by :mod:`balls`, points by :mod:`planes` and
-:mod:`bounds`. A no has to be the shipped answer for the same tetrahedra, up to symmetry, and its
-proof to pass :func:`proof_fault`, which ignores hints; a list has to contain the shipped one. That
-the formulas say what they should is not the question here.
+:mod:`bounds`. A no has to be the shipped answer for the same tetrahedra, up to symmetry, and a list
+has to contain the shipped one. Their proofs have to pass :func:`proof_fault`, which ignores hints
+and compares the clauses with those of :mod:`formulas`.
 """
 
 import json
 from collections import Counter, defaultdict
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import ExitStack, contextmanager
@@ -18,7 +18,6 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache, partial
 from hashlib import sha256
-from itertools import permutations
 from pathlib import Path
 from random import Random
 from signal import SIG_IGN, SIGINT, signal
@@ -26,11 +25,15 @@ from typing import Any, TypeAlias
 from unittest.mock import patch
 
 from certify.kernel import check, refutation
-from certify.kernel.certificate import read_certificate
+from certify.kernel.certificate import No, read_certificate
 from certify.kernel.check import Tetrahedra, Verdict
+from certify.kernel.completeness import triangulation_formula
 from certify.kernel.evidence import Evidence, Malformed, completeness_file
+from certify.kernel.hexahedron import BOUNDARY_TYPES
 from certify.kernel.orientations import Clause
-from certify.opinions.balls import ball_fault
+from certify.kernel.triangulation import orientation
+from certify.opinions import formulas
+from certify.opinions.balls import ball_fault, coherent_orientation, instances
 from certify.opinions.bounds import jacobian_fault
 from certify.opinions.forgeries import KINDS, Corpus, ForgedList, Forgery, Record, read_corpus
 from certify.opinions.planes import convexity_fault, realization_fault
@@ -147,7 +150,7 @@ def _formulas_kept() -> Iterator[None]:
     with ExitStack() as stack:
         formulas = {question: kept(formula) for question, formula in check.FORMULAS.items()}
         stack.enter_context(patch.dict(check.FORMULAS, formulas))
-        once = lru_cache(check.triangulation_formula)
+        once = lru_cache(triangulation_formula)
         stack.enter_context(patch.object(check, "triangulation_formula", once))
         yield
 
@@ -183,7 +186,7 @@ class Judge:
         """Least instance of a class -> the certificate that ships for it."""
         for name in corpus.certificates:
             record = corpus.record(name)
-            self.shipped[min(class_of(_tetrahedra(record)))] = record
+            self.shipped[min(_class_of(_tetrahedra(record)))] = record
 
     def outcome(self, forgery: Forgery | ForgedList) -> tuple[str, str]:
         """Return what becomes of a forgery, and why what is accepted is false."""
@@ -196,7 +199,7 @@ class Judge:
         try:
             certificate = read_certificate(forgery.pattern, forgery.certificate)
             verdict = check.check_certificate(certificate, evidence)
-        except Exception:  # noqa: BLE001 - the kernel accepts nothing where its check breaks off
+        except Exception:  # where its check breaks off the kernel accepts nothing
             return "refused", ""
         try:
             fault = self._fault(forgery, verdict)
@@ -212,11 +215,12 @@ class Judge:
         try:
             text = _Memory(Path(), content={name: forgery.proof}).proof(name)
             refutation.replay(formula, text)
-        except Exception:  # noqa: BLE001 - as above
+        except Exception:  # as above
             return "refused", ""
         if not set(self.corpus.known[forgery.letter]) <= set(forgery.known):
             return "false", "a triangulation is missing from the list"
-        fault = proof_fault(formula, text)
+        again = _clauses_of_list(forgery.letter, forgery.known)
+        fault = proof_fault(formula, again, text)
         return ("false", fault) if fault else ("true", "")
 
     def _fault(self, forgery: Forgery, verdict: Verdict) -> str | None:
@@ -225,48 +229,58 @@ class Judge:
         tetrahedra = _tetrahedra(record)
         if fault := _ball_fault(tetrahedra):
             return fault
-        instances = class_of(tetrahedra)
-        shipped = self.shipped.get(min(instances))
+        shipped = self.shipped.get(min(_class_of(tetrahedra)))
         if shipped is None:
             return "there is no such pattern among the 174"
-        if record["pattern"] != forgery.pattern or _size(record) != len(tetrahedra):
-            return "the name does not fit"
-        if record["boundary"] != shipped["boundary"] or record["instances"] != len(instances):
-            return "the boundary or the size of the class is wrong"
+        facts = {
+            "pattern": forgery.pattern,
+            "boundary": shipped["boundary"],
+            "instances": len(_class_of(tetrahedra)),
+        }
+        wrong = [key for key, fact in facts.items() if record[key] != fact]
+        if forgery.pattern.partition("_")[0] != str(len(tetrahedra)):
+            wrong.append("number of tetrahedra")
+        if wrong:
+            return f"not as stated: {', '.join(wrong)}"
         for question, accepted in verdict.answers.items():
-            stated = record[question]["answer"]
-            if accepted == "rejected":
-                continue
-            if accepted != stated:
-                return f"{question}: {stated} is stated, and {accepted} accepted"
-            if "open" not in (accepted, shipped[question]["answer"]) and (
-                accepted != shipped[question]["answer"]
-            ):
-                return f"{question}: the shipped answer is not {accepted}"
-            if fault := self._answer_fault(question, record, forgery, verdict):
+            fault = _answer_fault(question, accepted, tetrahedra, record, forgery, verdict)
+            if {accepted, shipped[question]["answer"]} == {"yes", "no"}:
+                fault = f"the shipped answer is not {accepted}"
+            if fault:
                 return f"{question}: {fault}"
         return None
 
-    def _answer_fault(
-        self, question: str, record: Record, forgery: Forgery, verdict: Verdict
-    ) -> str | None:
-        answer = record[question]
-        if answer["answer"] == "yes":
-            points = tuple(tuple(map(_coordinate, point)) for point in answer["points"])
-            return _points_fault(question, _tetrahedra(record), points)
-        if answer["answer"] == "no":
-            content = forgery.proofs[answer["proof"]]
-            if sha256(content).hexdigest() != answer["sha256"]:
-                return "the SHA-256 is not that of the proof"
-            for polynomial in answer.get("final_polynomials", []):
-                if fault := polynomial_fault(polynomial):
-                    return fault
-            assert verdict.certificate is not None
-            no = verdict.certificate.answers[question]
-            assert isinstance(no, check.No)
-            signs = check.orientation(verdict.certificate.tetrahedra)
-            return proof_fault(check.refuted_formula(question, no, signs), content.decode())
-        return None
+
+def _answer_fault(
+    question: str,
+    accepted: str,
+    tetrahedra: Tetrahedra,
+    record: Record,
+    forgery: Forgery,
+    verdict: Verdict,
+) -> str | None:
+    """Return what is false of an answer if it was accepted, or None."""
+    answer = record[question]
+    if accepted not in ("rejected", answer["answer"]):
+        return f"{accepted} is accepted, but not stated"
+    if accepted == "yes":
+        points = tuple(tuple(map(_coordinate, point)) for point in answer["points"])
+        return _points_fault(question, tetrahedra, points)
+    if accepted == "no":
+        content = forgery.proofs[answer["proof"]]
+        if sha256(content).hexdigest() != answer["sha256"]:
+            return "the SHA-256 is not that of the proof"
+        again = _clauses_of(question, tetrahedra) | _excluded(answer.get("final_polynomials", []))
+        return proof_fault(_refuted(question, verdict), again, content.decode())
+    return None
+
+
+def _refuted(question: str, verdict: Verdict) -> tuple[Clause, ...]:
+    """Return the formula that the kernel refuted, whose numbering the proof uses."""
+    assert verdict.certificate is not None
+    answer = verdict.certificate.answers[question]
+    assert isinstance(answer, No)
+    return check.refuted_formula(question, answer, orientation(verdict.certificate.tetrahedra))
 
 
 # Reading
@@ -289,26 +303,21 @@ def _strict(content: bytes) -> Record:
         parse_float=no_number,
         parse_constant=no_number,
     )
-    heads = {"format", "pattern", "boundary", "instances", "tetrahedra"}
-    if record.keys() != heads | _ALLOWED.keys() or record["format"] != "certify-pattern/1":
+    if record.keys() != _HEADS | _WRITE.keys() or record["format"] != "certify-pattern/1":
         raise ValueError("it has other keys, or another format")
-    for question in ("realizable", "convex", "valid"):
+    for question in _WRITE:
         keys = record[question].keys() - {"final_polynomials"}
         if keys != _KEYS[record[question]["answer"]]:
             raise ValueError("an answer has other keys")
     return record
 
 
-_ALLOWED = {"realizable": 0, "convex": 0, "valid": 0}
+_HEADS = {"format", "pattern", "boundary", "instances", "tetrahedra"}
 _KEYS = {
     "yes": {"answer", "points"},
     "no": {"answer", "proof", "sha256"},
     "open": {"answer"},
 }
-
-
-def _size(record: Record) -> int:
-    return int(record["pattern"].split("_")[0])
 
 
 def _tetrahedra(record: Record) -> Tetrahedra:
@@ -327,40 +336,14 @@ def _coordinate(value: Any) -> Fraction:
     return Fraction(int(numerator), int(denominator))
 
 
-# Classes
+# Truth
 
-_CODES = {1: 0, 2: 1, 3: 3, 4: 2, 5: 4, 6: 5, 7: 7, 8: 6}
-"""Vertex -> the corner of the unit cube, its coordinates read as binary digits."""
-
-
-def _relabellings() -> list[dict[int, int]]:
-    """Return the 48: a corner goes to any corner, and the three axes to the axes in any order."""
-    vertex = {code: v for v, code in _CODES.items()}
-    return [
-        {
-            v: vertex[start ^ sum(axis for bit, axis in enumerate(axes) if code >> bit & 1)]
-            for v, code in _CODES.items()
-        }
-        for start in range(8)
-        for axes in permutations((1, 2, 4))
-    ]
-
-
-_RELABELLINGS = _relabellings()
+_ball_fault = lru_cache(maxsize=4096)(ball_fault)
 
 
 @lru_cache(maxsize=4096)
-def class_of(tetrahedra: Tetrahedra) -> frozenset[Tetrahedra]:
-    """Return the images of tetrahedra under the symmetries of the cube."""
-    return frozenset(
-        tuple(sorted(tuple(sorted([image[v] for v in t])) for t in tetrahedra))
-        for image in _RELABELLINGS
-    )
-
-
-# Truth
-
-_ball_fault = lru_cache(maxsize=4096)(lambda tetrahedra: ball_fault(tetrahedra))
+def _class_of(tetrahedra: Tetrahedra) -> frozenset[Tetrahedra]:
+    return frozenset(instances(tetrahedra))
 
 
 @lru_cache(maxsize=64)
@@ -374,69 +357,52 @@ def _points_fault(question: str, tetrahedra: Tetrahedra, points: Points) -> str 
     return fault
 
 
-def polynomial_fault(polynomial: Record) -> str | None:
-    """Return why a final polynomial does not exclude its signs, or None if it does.
-
-    With a = [stab][stcd], b = [stac][stbd], c = [stad][stbc] it is a + c = b. So |a| >= |b| if b is
-    not zero and c is zero or of the opposite sign, and |a| > |b| in the latter case.
-    """
-    signs = {tuple(map(int, key)): sign for key, sign in polynomial["signs"].items()}
-    balance: Counter[tuple[int, ...]] = Counter()
-    strict = False
-    for multiplier, (s, t, a, b, c, d) in polynomial["inequalities"]:
-        larger, smaller, rest = (
-            ((s, t, *pair), (s, t, *other))
-            for pair, other in (((a, b), (c, d)), ((a, c), (b, d)), ((a, d), (b, c)))
-        )
-        sign, other = _product(smaller, signs), _product(rest, signs)
-        if multiplier < 1 or sign is None or other is None or not sign or sign * other > 0:
-            return "an inequality of a final polynomial does not follow from the signs"
-        strict |= other != 0
-        for bracket in larger:
-            balance[tuple(sorted(bracket))] += multiplier
-        for bracket in smaller:
-            balance[tuple(sorted(bracket))] -= multiplier
-    if not strict or set(balance.values()) - {0}:
-        return "a final polynomial is no contradiction"
-    return None
+_WRITE = {
+    "realizable": formulas.realizable,
+    "convex": formulas.convex,
+    "valid": formulas.valid,
+}
 
 
-def _product(brackets: Sequence[tuple[int, ...]], signs: dict[tuple[int, ...], int]) -> int | None:
-    """Return the sign of a product, or None if it is not known."""
-    known = [signs.get(tuple(sorted(bracket))) for bracket in brackets]
-    if 0 in known:
-        return 0
-    product = 1
-    for bracket, sign in zip(brackets, known, strict=True):
-        if sign is None:
-            return None
-        product *= sign * _parity(bracket)
-    return product
+@lru_cache(maxsize=64)
+def _clauses_of(question: str, tetrahedra: Tetrahedra) -> frozenset[formulas.Clause]:
+    """Return the formula for a question as it was written a second time."""
+    return frozenset(clause for _, clause in _WRITE[question](coherent_orientation(tetrahedra)))
 
 
-def _parity(vertices: tuple[int, ...]) -> int:
-    """Return the sign of the permutation that sorts the vertices, by exchanges."""
-    row, parity = list(vertices), 1
-    for i, vertex in enumerate(sorted(row)):
-        j = row.index(vertex)
-        if j != i:
-            row[i], row[j] = row[j], row[i]
-            parity = -parity
-    return parity
+@lru_cache(maxsize=16)
+def _clauses_of_list(letter: str, known: tuple[Tetrahedra, ...]) -> frozenset[formulas.Clause]:
+    again = formulas.completeness(BOUNDARY_TYPES[letter], known)
+    return frozenset(clause for _, clause in again)
 
 
-def proof_fault(formula: Sequence[Clause], proof: str) -> str | None:
+def _excluded(polynomials: Iterable[Record]) -> frozenset[formulas.Clause]:
+    """Return the clauses of final polynomials; raise ValueError if one of them is not absurd."""
+    clauses = set()
+    for polynomial in polynomials:
+        signs = {tuple(map(int, key)): sign for key, sign in polynomial["signs"].items()}
+        inequalities = [(times, tuple(six)) for times, six in polynomial["inequalities"]]
+        if any(times < 1 for times, _ in inequalities) or set(signs.values()) - {-1, 0, 1}:
+            raise ValueError("a multiplier is not positive, or a sign is none")
+        clauses.add(formulas.excluded(signs, inequalities)[1])
+    return frozenset(clauses)
+
+
+def proof_fault(
+    formula: Sequence[Clause], again: Collection[formulas.Clause], proof: str
+) -> str | None:
     """Return which lemma does not follow by unit propagation, or None if the proof is one.
 
-    Of the formula only the clauses that occur as hints are used; the order of the hints is not.
+    Of the formula only the clauses that occur as hints are used, and each of them must occur in the
+    formula as written ``again``; the order of the hints is not used.
     """
-    steps = [line.split() for line in proof.splitlines()]
-    steps = [words for words in steps if words[1] != "d"]
+    steps = [words for line in proof.splitlines() if (words := line.split())[1] != "d"]
     used = {int(word) for words in steps for word in words[words.index("0") + 1 : -1]}
     propagation = _Propagation()
-    for number in sorted(used):
-        if number <= len(formula):
-            propagation.add(formula[number - 1])
+    for number in sorted(number for number in used if number <= len(formula)):
+        if frozenset(formula[number - 1]) not in again:
+            return f"clause {number} does not belong to the formula"
+        propagation.add(formula[number - 1])
     for words in steps:
         lemma = tuple(map(int, words[1 : words.index("0")]))
         if not propagation.refutes([-literal for literal in lemma]):

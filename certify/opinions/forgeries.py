@@ -55,7 +55,8 @@ class Corpus:
     known: dict[str, tuple[Tetrahedra, ...]]
     """Type of boundary -> all triangulations with the representative boundary."""
     answers: dict[str, list[tuple[str, str]]]
-    """Answer -> the (pattern, question) that have it; "polynomials": the noes that have some."""
+    """Answer -> the (pattern, question) that have it; under "polynomials" and "lemmas" those noes
+    whose evidence has some."""
 
     def record(self, pattern: str) -> Record:
         """Return a pattern's certificate as JSON gives it, to be changed at will."""
@@ -66,19 +67,24 @@ class Corpus:
 def read_corpus(outcome: Outcome, evidence: Evidence) -> Corpus:
     """Return the corpus of a root that was accepted."""
     certificates = {name: evidence.certificate(name) for name in PATTERN_NAMES}
-    answers: dict[str, list[tuple[str, str]]] = {"yes": [], "no": [], "polynomials": []}
-    proofs = {completeness_file(letter): "" for letter in BOUNDARY_TYPES}
+    answers: dict[str, list[tuple[str, str]]] = {
+        answer: [] for answer in ("yes", "no", "open", "polynomials", "lemmas")
+    }
+    proofs = {file: evidence.proof(file) for file in map(completeness_file, BOUNDARY_TYPES)}
     for name, content in certificates.items():
         record = json.loads(content)
         for question in QUESTIONS:
-            answers.setdefault(record[question]["answer"], []).append((name, question))
-            if record[question].get("final_polynomials"):
+            answer = record[question]
+            answers[answer["answer"]].append((name, question))
+            if answer.get("final_polynomials"):
                 answers["polynomials"].append((name, question))
-            if "proof" in record[question]:
-                proofs[record[question]["proof"]] = ""
+            if "proof" in answer:
+                proofs[answer["proof"]] = text = evidence.proof(answer["proof"])
+                if len(text.splitlines()) > 1:
+                    answers["lemmas"].append((name, question))
     return Corpus(
         certificates,
-        {name: evidence.proof(name) for name in proofs},
+        proofs,
         {result.boundary: tuple(sorted(result.listed)) for result in outcome.completeness},
         answers,
     )
@@ -475,11 +481,13 @@ def _needed_deleted(random: Random, lines: list[str]) -> None:
     lines.insert(i, str(_Step(step.number, [], [random.choice(step.hints or [1])], deletes=True)))
 
 
-def _editing(change: Callable[[Random, _Step], None]) -> Callable[[Random, list[str]], None]:
-    """Change one step."""
+def _editing(
+    change: Callable[[Random, _Step], None], lemmas: bool = False
+) -> Callable[[Random, list[str]], None]:
+    """Change one step, which is not the last if ``lemmas`` are wanted and there are any."""
 
     def edit(random: Random, lines: list[str]) -> None:
-        i = random.randrange(len(lines))
+        i = random.randrange(max(len(lines) - lemmas, 1))
         step = _Step.read(lines[i])
         change(random, step)
         lines[i] = str(step)
@@ -536,9 +544,9 @@ _PROOFS: dict[str, Callable[[Random, list[str]], None]] = {
     "ended early": _ended_early,
     "last step cut": _last_cut,
     "needed clause deleted": _needed_deleted,
-    "lemma weakened": _editing(_weakened),
-    "lemma strengthened": _editing(_strengthened),
-    "literal negated": _editing(_negated),
+    "lemma weakened": _editing(_weakened, lemmas=True),
+    "lemma strengthened": _editing(_strengthened, lemmas=True),
+    "literal negated": _editing(_negated, lemmas=True),
     "hint redirected": _editing(_hint_redirected),
     "hint dropped": _editing(_hint_dropped),
     "hint added": _editing(_hint_added),
@@ -556,7 +564,7 @@ def _changed(random: Random, proof: str, change: Callable[[Random, list[str]], N
 
 def _changing_refutation(change: Callable[[Random, list[str]], None]) -> Mutator:
     def forge(random: Random, corpus: Corpus) -> Forgery:
-        name, question = random.choice(corpus.answers["no"])
+        name, question = random.choice(corpus.answers[random.choice(("no", "lemmas", "lemmas"))])
         draft = _draft(corpus, name, question)
         draft.proofs[question] = _changed(random, draft.proofs[question], change)
         return draft.finished()
