@@ -14,6 +14,7 @@ from certify.kernel import check, refutation
 from certify.kernel.certificate import QUESTIONS
 from certify.kernel.check import check_pattern
 from certify.kernel.evidence import Evidence, completeness_file
+from certify.kernel.orientations import has_sign
 from certify.kernel.theorems import Outcome
 from certify.opinions import attack as attacking
 from certify.opinions.attack import (
@@ -261,9 +262,9 @@ def clause_of(polynomial: refutation.FinalPolynomial) -> tuple[int, ...]:
     literals = []
     for quadruple, sign in polynomial.signs.items():
         if sign:
-            literals.append(-refutation.has_sign(quadruple, sign))
+            literals.append(-has_sign(quadruple, sign))
         else:
-            literals += [refutation.has_sign(quadruple, s) for s in (1, -1)]
+            literals += [has_sign(quadruple, s) for s in (1, -1)]
     return tuple(literals)
 
 
