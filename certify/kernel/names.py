@@ -56,7 +56,7 @@ def mean_what_the_table_says(patterns: Mapping[str, Verdict]) -> bool:
     but 15_G comes last. Thus no two patterns can exchange their names.
     """
     cells = defaultdict(list)
-    for name in sorted(PATTERN_NAMES, key=LAST_OF_ITS_CELL.__eq__):
+    for name in sorted(PATTERN_NAMES, key=lambda name: name == LAST_OF_ITS_CELL):
         verdict = patterns[name]
         letter = (LETTERS | AMENDED)[name]
         if (verdict.boundary, _status(verdict)) != (letter, _printed_status(name)):
