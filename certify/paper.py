@@ -1,14 +1,11 @@
 """What the paper prints: facts to be checked, never relied on.
 
 Pellerin, Verhetsel and Remacle, "There are 174 Subdivisions of the Hexahedron into Tetrahedra", ACM
-Transactions on Graphics 37 (2018), 266. Its big table of names is in
-the kernel's names.py, as a theorem says what a name means.
+Transactions on Graphics 37 (2018), 266. Its big table is in the kernel's names.py, as there is a
+theorem about it.
 """
 
-from certify.kernel.names import BOLD, LAST_OF_ITS_CELL, UNDERLINED
-
-NEEDS_FINAL_POLYNOMIAL = LAST_OF_ITS_CELL
-"""The one name underlined for which the text says that a uniform sign vector survives."""
+from certify.kernel.names import BOLD, NEEDS_FINAL_POLYNOMIAL, UNDERLINED
 
 
 def size(name: str) -> int:

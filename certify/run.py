@@ -6,6 +6,7 @@ from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from pathlib import Path
 from signal import SIG_IGN, SIGINT, signal
+from typing import Any
 
 from certify.kernel.check import Verdict
 from certify.kernel.theorems import Outcome, check_all
@@ -27,24 +28,28 @@ def run(root: Path, jobs: int = 1, report: Report | None = None) -> Outcome:
     """
 
     def apply(check: Callable[[str], Verdict], patterns: Sequence[str]) -> Iterator[Verdict]:
-        with _mapping(min(jobs, len(patterns))) as mapped:
+        with mapping(min(jobs, len(patterns))) as mapped:
             for done, verdict in enumerate(mapped(check, patterns), start=1):
                 yield verdict
                 if report:
                     report("checking", done, len(patterns))
 
-    try:
-        return check_all(root, apply)
-    except BrokenProcessPool:
-        raise ChildProcessError("a process that checks certificates was killed") from None
+    return check_all(root, apply)
 
 
 @contextmanager
-def _mapping(jobs: int) -> Iterator[Callable[..., Iterable[Verdict]]]:
-    """Give the built-in ``map``, or that of a pool of processes."""
+def mapping(jobs: int) -> Iterator[Callable[..., Iterable[Any]]]:
+    """Give the built-in ``map``, or that of a pool of processes.
+
+    Raises:
+        ChildProcessError: One of the processes was killed.
+    """
     if jobs == 1:
         yield map
         return
-    # An interrupt is for the parent, which then stops the others.
-    with ProcessPoolExecutor(jobs, initializer=signal, initargs=(SIGINT, SIG_IGN)) as pool:
-        yield pool.map
+    try:
+        # An interrupt is for the parent, which then stops the others.
+        with ProcessPoolExecutor(jobs, initializer=signal, initargs=(SIGINT, SIG_IGN)) as pool:
+            yield pool.map
+    except BrokenProcessPool:
+        raise ChildProcessError("a process that checks was killed") from None

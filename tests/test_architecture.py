@@ -113,7 +113,7 @@ def test_kernel_needs_nothing_else_installed(shipped: Path, tmp_path: Path) -> N
         subprocess.run([python, "-m", name], cwd=shipped, capture_output=True, check=False)
         for name in ("certify.kernel", "certify")
     )
-    assert (door.returncode, door.stdout.count(b"\nok: ")) == (0, 14)
+    assert (door.returncode, door.stdout.count(b"\nok: ")) == (0, 15)
     assert program.returncode == 1
     assert b"No module named 'click'" in program.stderr
 

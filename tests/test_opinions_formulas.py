@@ -183,6 +183,8 @@ def test_a_final_polynomial_must_be_absurd(certificates: Certificates) -> None:
     (times, six), *others = polynomial.inequalities
     with pytest.raises(NotAbsurd, match="equally often"):
         excluded(polynomial.signs, [(times + 1, six), *others])
+    with pytest.raises(NotAbsurd, match="multiplier 0 is not positive"):
+        excluded(polynomial.signs, [(0, six), *polynomial.inequalities])
     with pytest.raises(NotAbsurd, match="strict"):
         excluded(polynomial.signs, [])
     with pytest.raises(NotAbsurd, match="do not imply"):

@@ -6,12 +6,11 @@ platforms only. The other is below: propagation by counting, where the kernel fo
 
 import importlib.util
 from collections import Counter
-from collections.abc import Container, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
 import pytest
-from _pytest.mark import ParameterSet
 from pysat.solvers import Solver
 
 from certify.kernel.certificate import QUESTIONS, Certificate, No
@@ -31,11 +30,6 @@ needs_drup = pytest.mark.skipif(
 )
 every_question = pytest.mark.parametrize("question", QUESTIONS)
 every_boundary = pytest.mark.parametrize("letter", BOUNDARY_TYPES)
-
-
-def except_slow(values: Iterable[str], slow: Container[str]) -> list[str | ParameterSet]:
-    """Return the parameters, some of them marked as slow."""
-    return [pytest.param(v, marks=pytest.mark.slow) if v in slow else v for v in values]
 
 
 class Proved(NamedTuple):
@@ -195,14 +189,14 @@ def drup_accepts(formula: Iterable[Clause], lemmas: Iterable[Clause]) -> bool:
 
 
 @needs_drup
-@pytest.mark.parametrize("question", except_slow(QUESTIONS, ("convex", "valid")))
-def test_drup_accepts_refutations(question: str, refutations: dict[str, list[Proved]]) -> None:
-    for proved in refutations[question]:
+def test_drup_accepts_refutations(refutations: dict[str, list[Proved]]) -> None:
+    """These before the whole formula; all before their cores in test_second_opinions.py."""
+    for proved in refutations["realizable"]:
         assert drup_accepts(proved.formula, proved.lemmas), proved.path
 
 
 @needs_drup
-@pytest.mark.parametrize("letter", except_slow(BOUNDARY_TYPES, "cdefg"))
+@pytest.mark.parametrize("letter", "ab")
 def test_drup_accepts_completeness(letter: str, completions: dict[str, Proved]) -> None:
     """Its propagation is naive, so it gets that part of the formula that the hints name."""
     assert drup_accepts(completions[letter].core, completions[letter].lemmas)

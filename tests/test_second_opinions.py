@@ -43,6 +43,10 @@ def test_they_agree(some: list[Verdict]) -> None:
     assert counts["drup"] == (0 if opinions["drup"].absent else 4)
 
 
+def test_nothing_accepted_is_nothing_asked() -> None:
+    assert {opinion.asked for opinion in asked([Verdict("5_A", fault="spoiled")]).values()} == {0}
+
+
 def mirrored(certificate: Certificate) -> Certificate:
     answers = dict(certificate.answers)
     for question, answer in answers.items():
@@ -115,7 +119,7 @@ def test_programs_must_say_so(
 
 @pytest.mark.slow
 def test_command() -> None:
-    code, out, _ = run(CHECKOUT, "check-all", "--second-opinion")
+    code, out, _ = run(CHECKOUT, "check-all", "--second-opinion", "--jobs", "2")
     assert code == 0
     assert "agrees: balls: 174 of 174, " in out
     assert "agrees: completeness: 7 of 7, " in out

@@ -117,7 +117,7 @@ def letters_are_seven(inputs: Inputs) -> bool:
 @check
 def text_names_the_underlined(inputs: Inputs) -> bool:
     """The names listed in section 4.4, together with 15_G, are the underlined ones."""
-    return sorted((*inputs.no_matroid, paper.NEEDS_FINAL_POLYNOMIAL)) == sorted(inputs.underlined)
+    return sorted((*inputs.no_matroid, names.NEEDS_FINAL_POLYNOMIAL)) == sorted(inputs.underlined)
 
 
 # The template

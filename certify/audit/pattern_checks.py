@@ -31,10 +31,11 @@ from certify.kernel.hexahedron import (
     sorted_with_sign,
 )
 from certify.kernel.jacobian import require_positive_jacobian
+from certify.kernel.names import NEEDS_FINAL_POLYNOMIAL
 from certify.kernel.orientations import convex_formula, realization_formula
 from certify.kernel.refutation import excluded_signs
 from certify.kernel.triangulation import orbit, orientation, triangles
-from certify.paper import NEEDS_FINAL_POLYNOMIAL, size
+from certify.paper import size
 
 CUBE = tuple(name for name in PATTERN_NAMES if size(name) <= 6)
 """The patterns with five or six tetrahedra. They are the cube's (theorems cube, sizes)."""

@@ -98,7 +98,7 @@ def _print_opinions(opinions: Sequence[Opinion]) -> None:
         if opinion.absent:
             print_wrapped(f"did not run: {opinion.name}: {opinion.absent}")
         else:
-            status = "differs" if opinion.faults else "agrees"
+            status = "differs" if opinion.faults else "agrees" if agree else "was not asked"
             print_wrapped(f"{status}: {opinion.name}: {agree} of {opinion.asked}, {opinion.means}")
         for fault in opinion.faults:
             click.echo(f"differs: {opinion.name}: {fault}")

@@ -44,8 +44,11 @@ UNDERLINED = frozenset(
 )
 """Printed underlined: no realization in convex position."""
 
-LAST_OF_ITS_CELL = "15_G"
-"""The text says of this one that a uniform sign vector survives: so it is not 15_F or 15_H."""
+NEEDS_FINAL_POLYNOMIAL = "15_G"
+"""The one underlined of which the text says that a uniform sign vector survives.
+
+So it cannot be 15_F or 15_H, which share its cell; it comes last there.
+"""
 
 
 def mean_what_the_table_says(patterns: Mapping[str, Verdict]) -> bool:
@@ -56,7 +59,7 @@ def mean_what_the_table_says(patterns: Mapping[str, Verdict]) -> bool:
     but 15_G comes last. Thus no two patterns can exchange their names.
     """
     cells = defaultdict(list)
-    for name in sorted(PATTERN_NAMES, key=LAST_OF_ITS_CELL.__eq__):
+    for name in sorted(PATTERN_NAMES, key=lambda name: name == NEEDS_FINAL_POLYNOMIAL):
         verdict = patterns[name]
         letter = (LETTERS | AMENDED)[name]
         if (verdict.boundary, _status(verdict)) != (letter, _printed_status(name)):

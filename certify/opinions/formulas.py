@@ -133,7 +133,7 @@ def grassmann_pluecker() -> tuple[Named, ...]:
                     cases.append(
                         [
                             {-first(x, f), -second(y, g)}
-                            for (first, f), (second, g) in ensuring({factor * a for a in allowed})
+                            for (first, f), (second, g) in ensuring({factor * e for e in allowed})
                         ]
                     )
                 clauses += [frozenset().union(*ways) for ways in product(*cases)]
@@ -290,6 +290,8 @@ def excluded(assumed: Signs, inequalities: Iterable[Inequality]) -> Named:
     balance: Counter[Vertices] = Counter()
     strict = False
     for times, (s, t, a, b, c, d) in inequalities:
+        if times < 1:
+            raise NotAbsurd(f"the multiplier {times} is not positive")
         larger = (s, t, a, b), (s, t, c, d)
         smaller = (s, t, a, c), (s, t, b, d)
         rest = sign((s, t, a, d), (s, t, b, c))

@@ -8,7 +8,6 @@ needs a program which is not there does not run, and says so.
 import shutil
 import subprocess
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, field
 from functools import partial
 from importlib.util import find_spec
@@ -30,7 +29,7 @@ from certify.opinions.balls import ball_fault, coherent_orientation, instances
 from certify.opinions.bounds import jacobian_fault
 from certify.opinions.exhaustive import triangulations
 from certify.opinions.planes import convexity_fault, realization_fault
-from certify.run import Report
+from certify.run import Report, mapping
 
 PROGRAMS = {
     "drat-trim": "drat",
@@ -76,10 +75,9 @@ def second_opinions(root: Path, outcome: Outcome, jobs: int, report: Report) -> 
     opinions = {opinion.name: opinion for opinion in _opinions()}
     present = {name for name, opinion in opinions.items() if opinion.absent is None}
     inquiries = [i for i in _inquiries(root, outcome) if i.opinion in present]
-    with ProcessPoolExecutor(jobs) as pool:
-        for done, (inquiry, fault) in enumerate(
-            zip(inquiries, pool.map(_ask, inquiries), strict=True), start=1
-        ):
+    with mapping(jobs) as mapped:
+        answers = zip(inquiries, mapped(_ask, inquiries), strict=True)
+        for done, (inquiry, fault) in enumerate(answers, start=1):
             opinions[inquiry.opinion].asked += 1
             if fault:
                 opinions[inquiry.opinion].faults.append(f"{inquiry.subject}: {fault}")
