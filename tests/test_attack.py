@@ -16,19 +16,12 @@ from certify.kernel.check import check_pattern
 from certify.kernel.evidence import Evidence, completeness_file
 from certify.kernel.orientations import has_sign
 from certify.kernel.theorems import Outcome
-from certify.opinions import attack as attacking
-from certify.opinions.attack import (
-    OUTCOMES,
-    SCHEDULE,
-    Attack,
-    FalseAcceptance,
-    Judge,
-    attack,
-    forge,
-    proof_fault,
-    write_out,
-)
-from certify.opinions.forgeries import KINDS, Corpus, ForgedList, Forgery, read_corpus
+from certify.opinions.attack import campaign
+from certify.opinions.attack.campaign import Finding, attack, write_out
+from certify.opinions.attack.corpus import Corpus, ForgedList, Forgery, read_corpus
+from certify.opinions.attack.judge import Judge
+from certify.opinions.attack.kinds import KINDS, SCHEDULE, forge
+from certify.opinions.rup import proof_fault
 from tests.commands import run, run_json
 
 SEEDS = range(6)
@@ -53,7 +46,7 @@ def start_once(judge: Judge) -> Any:
 
     started.cache_clear = lambda: None  # type: ignore[attr-defined]
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(attacking, "_judge", started)
+        patch.setattr(campaign, "_judge", started)
         yield
 
 
@@ -188,26 +181,22 @@ def test_the_seed_and_the_number_say_which(corpus: Corpus) -> None:
     assert [forge(corpus, 5, n)[0] for n in range(10)] == list(SCHEDULE[:10])
 
 
-def total(found: Attack) -> dict[str, int]:
-    return {outcome: sum(c[outcome] for c in found.counts.values()) for outcome in OUTCOMES}
-
-
 def test_no_false_acceptance(shipped: Path) -> None:
     told: list[tuple[str, int, int]] = []
     found = attack(shipped, 1, 1500, report=lambda *what: told.append(what))
-    assert found.false == ()
+    assert found.findings == ()
     assert found.tried == 1500
     assert all(counts.total() >= 5 for counts in found.counts.values())
-    assert total(found)["refused"] > 1000
-    assert total(found)["true"] > 100
+    assert found.total["refused"] > 1000
+    assert found.total["true"] > 100
     assert told[-1] == ("forging", 1500, 1500)
 
 
 @pytest.mark.slow
 def test_no_false_acceptance_among_many(shipped: Path) -> None:
     found = attack(shipped, 2, 10_000)
-    assert found.false == ()
-    assert total(found)["refused"] > 7000
+    assert found.findings == ()
+    assert found.total["refused"] > 7000
 
 
 def test_outcome_does_not_depend_on_processes(shipped: Path) -> None:
@@ -329,7 +318,7 @@ def test_command_reports_false_acceptances(
 def test_false_lists_are_written_out(corpus: Corpus, tmp_path: Path) -> None:
     forgery = KINDS["completeness: instance removed"](Random(1), corpus)
     assert isinstance(forgery, ForgedList)
-    place = write_out(tmp_path, FalseAcceptance(3, "some", "why", forgery))
+    place = write_out(tmp_path, Finding(3, "some", "false", "why", forgery))
     note = json.loads((place / "forgery.json").read_text())
     assert len(note["listed"]) == len(corpus.known[forgery.letter]) - 1
     assert (place / completeness_file(forgery.letter)).read_bytes() == forgery.proof

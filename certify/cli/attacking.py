@@ -23,7 +23,7 @@ from certify.cli.common import (
 )
 
 if TYPE_CHECKING:
-    from certify.opinions.attack import Attack
+    from certify.opinions.attack.campaign import Attack
 
 
 @click.command(epilog=examples("certify attack --seed 1 --count 200000 --jobs 2"))
@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     type=click.Path(path_type=Path),
     default=Path("forgeries"),
     metavar="DIR",
-    help="Folder for forgeries that are falsely accepted (default forgeries).",
+    help="Folder for forgeries that are not refused and false (default forgeries).",
 )
 @jobs_option
 @root_option
@@ -50,10 +50,11 @@ def attack(seed: int, count: int, to: Path, jobs: int, root: Path | None, as_jso
 
     Each is a shipped one with one thing changed. What the kernel accepts of it has to be true by
     code that shares nothing with the kernel, else it is a false acceptance: it is written out as a
-    root of its own, and the exit code is 1. The outcome depends on the seed alone, not on --jobs.
+    root of its own, and the exit code is 1; the same if the check breaks off. The outcome depends
+    on the seed alone, not on --jobs.
     """
-    from certify.opinions.attack import NotAccepted, write_out
-    from certify.opinions.attack import attack as attack_with
+    from certify.opinions.attack.campaign import NotAccepted, write_out
+    from certify.opinions.attack.campaign import attack as attack_with
     from certify.run import printable
 
     folder = existing_root(root)
@@ -62,23 +63,23 @@ def attack(seed: int, count: int, to: Path, jobs: int, root: Path | None, as_jso
             found = attack_with(folder, seed, count, jobs, show)
     except NotAccepted as error:
         fail(f"rejected: {error}", code=1)
-    written = [(forgery, str(write_out(to, forgery))) for forgery in found.false]
+    written = [(finding, str(write_out(to, finding))) for finding in found.findings]
     if as_json:
         print_json(_record(found, seed, [path for _, path in written]))
     else:
         _print_counts(found)
-        for forgery, path in written:
-            click.echo(printable(f"false: {forgery.kind}: {forgery.reason}: {path}"))
-    exit_with(not found.false)
+        for finding, path in written:
+            click.echo(printable(f"{finding.outcome}: {finding.kind}: {finding.reason}: {path}"))
+    exit_with(not found.findings)
 
 
 def _record(found: Attack, seed: int, paths: list[str]) -> dict[str, Any]:
-    from certify.opinions.attack import OUTCOMES
+    from certify.opinions.attack.judge import OUTCOMES
 
     return {
         "seed": seed,
         "tried": found.tried,
-        "false_acceptances": len(found.false),
+        "false_acceptances": found.total["false"],
         "kinds": {
             kind: {"tried": counts.total(), **{o: counts[o] for o in OUTCOMES}}
             for kind, counts in found.counts.items()
@@ -88,7 +89,7 @@ def _record(found: Attack, seed: int, paths: list[str]) -> dict[str, Any]:
 
 
 def _print_counts(found: Attack) -> None:
-    from certify.opinions.attack import OUTCOMES
+    from certify.opinions.attack.judge import OUTCOMES
 
     print_table(
         ("kind", "tried", *OUTCOMES),
@@ -98,8 +99,9 @@ def _print_counts(found: Attack) -> None:
         ),
         "what is accepted is true or false",
     )
-    refused, true, false = (sum(c[o] for c in found.counts.values()) for o in OUTCOMES)
+    total = found.total
     click.echo(
-        f"{found.tried} forgeries: {refused} refused, {true} accepted and true\n"
-        f"false acceptances: {false}"
+        f"{found.tried} forgeries: {total['refused']} refused, {total['true']} accepted and true\n"
+        f"checks broken off: {total['broken off']}\n"
+        f"false acceptances: {total['false']}"
     )
