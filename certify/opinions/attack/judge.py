@@ -20,7 +20,6 @@ from certify.kernel.certificate import No, read_certificate
 from certify.kernel.check import Tetrahedra, Verdict
 from certify.kernel.evidence import Evidence, Malformed, completeness_file
 from certify.kernel.hexahedron import BOUNDARY_TYPES
-from certify.kernel.orientations import Clause
 from certify.kernel.refutation import NotRefuted
 from certify.kernel.triangulation import orientation
 from certify.opinions import formulas
@@ -153,7 +152,7 @@ def _answer_fault(
     return None
 
 
-def _refuted(question: str, verdict: Verdict) -> tuple[Clause, ...]:
+def _refuted(question: str, verdict: Verdict) -> tuple[tuple[int, ...], ...]:
     """Return the formula that the kernel refuted, whose numbering the proof uses."""
     assert verdict.certificate is not None
     answer = verdict.certificate.answers[question]
@@ -175,6 +174,8 @@ def _strict(content: bytes) -> Record:
     def no_number(literal: str) -> Any:
         raise ValueError(f"{literal} is no integer")
 
+    if any(word in content for word in (b"true", b"false", b"null")):
+        raise ValueError("a value is no string, number, list or object")
     record: Record = json.loads(
         content.decode(),
         object_pairs_hook=unique,
@@ -261,7 +262,7 @@ def _excluded(polynomials: Iterable[Record]) -> frozenset[formulas.Clause]:
     for polynomial in polynomials:
         signs = {tuple(map(int, key)): sign for key, sign in polynomial["signs"].items()}
         inequalities = [(times, tuple(six)) for times, six in polynomial["inequalities"]]
-        if any(times < 1 for times, _ in inequalities) or set(signs.values()) - {-1, 0, 1}:
-            raise ValueError("a multiplier is not positive, or a sign is none")
+        if set(signs.values()) - {-1, 0, 1}:
+            raise ValueError("a sign is none")
         clauses.add(formulas.excluded(signs, inequalities)[1])
     return frozenset(clauses)
