@@ -23,9 +23,9 @@ from certify.kernel.certificate import (
 from certify.kernel.check import Rejected, Verdict, check_certificate
 from certify.kernel.chirotope import Point
 from certify.kernel.evidence import Evidence, certificate_file
-from certify.kernel.hexahedron import BOUNDARY_TYPES, Simplex
+from certify.kernel.hexahedron import BOUNDARY_TYPES, Simplex, boundary_letter
 from certify.kernel.refutation import FinalPolynomial
-from certify.kernel.triangulation import orientation
+from certify.kernel.triangulation import boundary_diagonals, orbit, orientation
 from tests.geometry import QUADRUPLES, VERTICES, Placement, exact, is_extreme, realizes
 from tests.test_validity import determinants
 
@@ -338,6 +338,24 @@ def test_spoiled_tetrahedra_are_rejected(
     for tetrahedra in neighbours(certificate.tetrahedra):
         spoiled = replace(certificate, tetrahedra=tuple(sorted(tetrahedra)))
         assert fault(spoiled, shipped).startswith("tetrahedra: ")
+
+
+def test_what_only_a_shelling_refuses_is_rejected(
+    shipped: Path, certificates: Certificates
+) -> None:
+    """Nine tetrahedra bounded like a hexahedron that form no ball, with all else stated right."""
+    text = "1235 1257 1267 1348 1357 1378 1568 1678 2357"
+    tetrahedra = tuple(tuple(map(int, word)) for word in text.split())
+    letter = boundary_letter(boundary_diagonals(tetrahedra))
+    spoiled = Certificate(
+        pattern="9_A",
+        boundary=letter,
+        instances=len(orbit(tetrahedra)),
+        tetrahedra=tetrahedra,
+        answers=dict.fromkeys(certificates["9_A"].answers, Open()),
+    )
+    assert (letter, spoiled.instances) == ("b", 48)
+    assert fault(spoiled, shipped) == "tetrahedra: no shelling goes beyond 8 of 9 tetrahedra"
 
 
 @every_pattern
