@@ -1,7 +1,7 @@
 """The command line: parse, call, print. What is true is decided in certify/kernel alone.
 
 One module for each group of commands: :mod:`checking`, :mod:`evidence`, :mod:`auditing`,
-:mod:`attacking`, :mod:`building`; what they share is in :mod:`common`.
+:mod:`doubting`, :mod:`building`; what they share is in :mod:`common`.
 """
 
 import sys
@@ -10,7 +10,7 @@ from typing import Any
 import click
 
 from certify import __version__
-from certify.cli import attacking, auditing, building, checking, evidence
+from certify.cli import auditing, building, checking, doubting, evidence
 from certify.cli.common import fail
 
 __all__ = ["cli", "main"]
@@ -74,7 +74,8 @@ for command in (
     evidence.export,
     checking.replay,
     auditing.spheres,
-    attacking.attack,
+    doubting.attack,
+    doubting.trust,
     building.build,
     building.completion,
 ):

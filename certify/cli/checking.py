@@ -22,17 +22,18 @@ from certify.cli.common import (
     json_option,
     pattern_argument,
     print_json,
+    print_opinions,
     print_table,
     print_wrapped,
     progress,
     root_option,
+    second_opinion_option,
+    second_opinions,
     verdict_line,
 )
 
 if TYPE_CHECKING:
     from certify.kernel.check import Verdict
-    from certify.kernel.theorems import Outcome
-    from certify.opinions.second import Opinion
 
 MAX_REPLAY_BYTES = 1 << 28
 
@@ -47,11 +48,7 @@ MAX_REPLAY_BYTES = 1 << 28
     metavar="FILE",
     help="Write JUnit XML as well.",
 )
-@click.option(
-    "--second-opinion",
-    is_flag=True,
-    help="Ask every accepted answer again, by other code and by other checkers.",
-)
+@second_opinion_option
 def check_all(
     jobs: int, root: Path | None, as_json: bool, junit: Path | None, second_opinion: bool
 ) -> None:
@@ -74,34 +71,14 @@ def check_all(
     summary = report.summary(outcome, seconds)
     if junit:
         junit.write_bytes(report.junit(outcome, seconds))
-    opinions = _second_opinions(folder, outcome, jobs) if second_opinion else []
+    opinions = second_opinions(folder, outcome, jobs) if second_opinion else []
     if as_json:
         extra = {"second_opinions": list(map(asdict, opinions))} if second_opinion else {}
         print_json(summary | extra)
     else:
         _print_summary(summary, outcome.verdicts)
-        _print_opinions(opinions)
+        print_opinions(opinions)
     exit_with(outcome.ok and not any(opinion.faults for opinion in opinions))
-
-
-def _second_opinions(root: Path, outcome: Outcome, jobs: int) -> list[Opinion]:
-    from certify.opinions.second import second_opinions
-
-    with progress() as show:
-        return second_opinions(root, outcome, jobs, show)
-
-
-def _print_opinions(opinions: Sequence[Opinion]) -> None:
-    """Print a line for every opinion, and one for everything on which it differs."""
-    for opinion in opinions:
-        agree = opinion.asked - len(opinion.faults)
-        if opinion.absent:
-            print_wrapped(f"did not run: {opinion.name}: {opinion.absent}")
-        else:
-            status = "differs" if opinion.faults else "agrees" if agree else "was not asked"
-            print_wrapped(f"{status}: {opinion.name}: {agree} of {opinion.asked}, {opinion.means}")
-        for fault in opinion.faults:
-            click.echo(f"differs: {opinion.name}: {fault}")
 
 
 @click.command(epilog=examples("certify check 15_A 8_E"))

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from click.shell_completion import CompletionItem
 
     from certify.kernel.check import Verdict
+    from certify.kernel.theorems import Outcome
+    from certify.opinions.second import Opinion
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -28,6 +30,11 @@ root_option = click.option(
     help="Folder with certificates/ and proofs/; by default those that come with certify.",
 )
 json_option = click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+second_opinion_option = click.option(
+    "--second-opinion",
+    is_flag=True,
+    help="Ask every accepted answer again, by other code and by other checkers.",
+)
 
 
 def _at_least_one(_context: click.Context, _parameter: click.Parameter, value: int) -> int:
@@ -225,3 +232,26 @@ def print_table(headings: Sequence[str], rows: Iterable[Sequence[object]], title
 def plural(number: int, noun: str) -> str:
     """Return a number with its noun, which takes an s unless it is one."""
     return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+
+
+def second_opinions(root: Path, outcome: Outcome, jobs: int) -> list[Opinion]:
+    """Ask every opinion, with a live line."""
+    from certify.opinions.second import second_opinions as ask
+
+    with progress() as show:
+        return ask(root, outcome, jobs, show)
+
+
+def print_opinions(opinions: Sequence[Opinion]) -> None:
+    """Print a line for every opinion, and one for everything on which it differs."""
+    for opinion in opinions:
+        agree = opinion.asked - len(opinion.faults)
+        if opinion.absent:
+            print_wrapped(f"did not run: {opinion.name}: {opinion.absent}")
+        elif not opinion.asked:
+            print_wrapped(f"not asked: {opinion.name}: {opinion.means}")
+        else:
+            status = "differs" if opinion.faults else "agrees"
+            print_wrapped(f"{status}: {opinion.name}: {agree} of {opinion.asked}, {opinion.means}")
+        for fault in opinion.faults:
+            click.echo(f"differs: {opinion.name}: {fault}")

@@ -72,7 +72,7 @@ class Refuted(NamedTuple):
 
 def second_opinions(root: Path, outcome: Outcome, jobs: int, report: Report) -> list[Opinion]:
     """Ask every opinion about everything that was accepted, in ``jobs`` processes."""
-    opinions = {opinion.name: opinion for opinion in _opinions()}
+    opinions = {opinion.name: opinion for opinion in not_asked()}
     present = {name for name, opinion in opinions.items() if opinion.absent is None}
     inquiries = [i for i in _inquiries(root, outcome) if i.opinion in present]
     with mapping(jobs) as mapped:
@@ -92,7 +92,8 @@ def _ask(inquiry: Inquiry) -> str | None:
         return ascii(error)
 
 
-def _opinions() -> Iterator[Opinion]:
+def not_asked() -> Iterator[Opinion]:
+    """Yield every opinion before it is asked, and whether it can be."""
     yield Opinion("balls", "by discs as links and by a collapse, not by shellings")
     yield Opinion("realizations", "by planes that separate the tetrahedra, two at a time")
     yield Opinion("convex position", "by a plane that supports the hull at every vertex")
