@@ -13,7 +13,7 @@ import pytest
 from certify.kernel import check, refutation
 from certify.kernel.certificate import QUESTIONS
 from certify.kernel.check import check_pattern
-from certify.kernel.evidence import Evidence, completeness_file
+from certify.kernel.evidence import Evidence, completeness_file, kernel_digest
 from certify.kernel.orientations import has_sign
 from certify.kernel.theorems import Outcome
 from certify.opinions.attack import campaign
@@ -288,11 +288,9 @@ def test_command(shipped: Path) -> None:
     assert out.endswith("\nfalse acceptances: 0\n")
     assert all(kind.split(": ")[0] in out for kind in KINDS)
     code, record = run_json(shipped, "attack", "--seed", "1", "--count", "90")
-    assert (code, record["figures"]["forgeries"], record["figures"]["false acceptances"]) == (
-        0,
-        90,
-        0,
-    )
+    figures = record["figures"]
+    assert (code, figures["forgeries"], figures["false acceptances"]) == (0, 90, 0)
+    assert record["kernel_sha256"] == kernel_digest()
     assert record["kinds"].keys() == KINDS.keys()
     assert sum(counts["tried"] for counts in record["kinds"].values()) == 90
 
