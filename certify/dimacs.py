@@ -1,9 +1,12 @@
 """Formulas in conjunctive normal form as DIMACS text."""
 
+import re
 from collections.abc import Iterable, Sequence
 
 from certify.kernel.evidence import Malformed
 from certify.kernel.orientations import Clause
+
+_INTEGER = re.compile(r"0|-?[1-9][0-9]{0,8}")
 
 
 def write_dimacs(formula: Sequence[Clause], comments: Iterable[str] = ()) -> str:
@@ -31,6 +34,8 @@ def read_dimacs(text: str) -> list[Clause]:
             continue
         if words[:2] == ["p", "cnf"] and variables < 0 and len(words) == 4:
             variables, count = (_integer(word, number) for word in words[2:])
+            if min(variables, count) < 0:
+                raise Malformed(f"line {number}: the header announces a negative number")
             continue
         for literal in (_integer(word, number) for word in words):
             if abs(literal) > variables:
@@ -51,6 +56,6 @@ def read_dimacs(text: str) -> list[Clause]:
 
 
 def _integer(word: str, line: int) -> int:
-    if not (word.isascii() and word.removeprefix("-").isdecimal() and len(word) <= 10):
-        raise Malformed(f"line {line}: {word[:20]!a} is not an integer of at most ten characters")
+    if not _INTEGER.fullmatch(word):
+        raise Malformed(f"line {line}: {word[:20]!a} is not an integer of at most nine digits")
     return int(word)

@@ -283,7 +283,11 @@ def test_replay_of_any_proof(tmp_path: Path) -> None:
         ("p cnf 2 2\n1 0\n", PROOF, "f.cnf: the header announces 2 clauses, but there are 1"),
         ("p cnf 2 1\n1 0 2\n", PROOF, "f.cnf: the last clause does not end with 0"),
         ("p cnf 2 1\nx 0\n", PROOF, "f.cnf: line 2: 'x' is not an integer of at most"),
-        ("p cnf 2 1\n" + "9" * 99, PROOF, "is not an integer of at most ten characters"),
+        ("p cnf 2 1\n" + "9" * 99, PROOF, "is not an integer of at most nine digits"),
+        ("p cnf 2 1\n1 -0\n", PROOF, "f.cnf: line 2: '-0' is not an integer"),
+        ("p cnf 2 1\n01 0\n", PROOF, "f.cnf: line 2: '01' is not an integer"),
+        ("p cnf 2 -1\n", PROOF, "f.cnf: line 1: the header announces a negative number"),
+        ("p cnf -2 0\n", PROOF, "f.cnf: line 1: the header announces a negative number"),
         ("p cnf 2 1\np cnf 2 1\n", PROOF, "f.cnf: line 2: 'p' is not an integer"),
     ],
 )
