@@ -85,7 +85,7 @@ def _try(root: Path, seed: int, numbers: range) -> tuple[Counter[tuple[str, str]
     judge = _judge(root)
     found: Counter[tuple[str, str]] = Counter()
     findings = []
-    with _formulas_kept():
+    with formulas_kept():
         for number in numbers:
             kind, forgery = forge(judge.corpus, seed, number)
             outcome, reason = judge.outcome(forgery)
@@ -96,7 +96,7 @@ def _try(root: Path, seed: int, numbers: range) -> tuple[Counter[tuple[str, str]
 
 
 @contextmanager
-def _formulas_kept() -> Iterator[None]:
+def formulas_kept() -> Iterator[None]:
     """Let the kernel write each formula once, not once for each forgery. Verdicts are not kept."""
 
     def kept(formula: Callable[[dict[Any, int]], Any]) -> Callable[[dict[Any, int]], Any]:
