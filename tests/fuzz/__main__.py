@@ -30,8 +30,8 @@ def fuzz(
     """Fuzz a target in a process of its own; return how often it was fed, and what was found."""
     findings.mkdir(parents=True, exist_ok=True)
     before = set(findings.iterdir())
-    with TemporaryDirectory(prefix="certify-") as inputs:
-        arguments = [target, inputs, str(findings.resolve()), str(seconds), str(runs)]
+    with TemporaryDirectory(prefix="certify-") as folder:
+        arguments = [target, folder, str(findings.resolve()), str(seconds), str(runs)]
         command = [sys.executable, "-m", "tests.fuzz.targets", *arguments]
         done = subprocess.run(command, cwd=checkout, capture_output=True, check=False)
     text = done.stderr.decode("utf-8", "replace")
