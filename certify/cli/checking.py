@@ -64,6 +64,7 @@ def check_all(
     start = perf_counter()
     from certify import report
     from certify.run import run
+    from certify.writing import write_file
 
     folder = existing_root(root)
     if junit and not junit.parent.is_dir():
@@ -73,7 +74,7 @@ def check_all(
     seconds = perf_counter() - start
     summary = report.summary(outcome, seconds)
     if junit:
-        junit.write_bytes(report.junit(outcome, seconds))
+        write_file(junit, report.junit(outcome, seconds))
     opinions = _second_opinions(folder, outcome, jobs) if second_opinion else []
     if as_json:
         extra = {"second_opinions": list(map(asdict, opinions))} if second_opinion else {}

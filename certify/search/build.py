@@ -1,10 +1,8 @@
 """Everything found again: all patterns, with answers, names, certificates and proofs."""
 
 import json
-from errno import EEXIST
 from hashlib import sha256
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -29,6 +27,7 @@ from certify.search.final_polynomials import refute_with_polynomials
 from certify.search.naming import assign_names
 from certify.search.placement import place
 from certify.search.refutations import Step, lrat, model, refute
+from certify.writing import written_to
 
 
 class Refutation(NamedTuple):
@@ -43,33 +42,35 @@ Finding = list[list[int]] | Refutation | None
 
 INVESTIGATING = "searching"
 COMPLETING = "completing"
-FOLDERS = ("certificates", "proofs")
+FOLDERS = {"certificates": ".json", "proofs": ".lrat"}
 
 
 def build(root: Path, jobs: int, report: Report) -> None:
     """Put certificates/ and proofs/, found anew, below ``root``, which is created if need be.
 
-    The two folders replace old ones as a whole and at the end, so that an interrupted build
-    changes nothing. What is found depends on the code and the libraries' versions, not on the
-    number of jobs or on how a machine rounds: every pattern has a random generator of its own,
-    seeded by its position; there is no time limit; points are sought in integers; and linear
-    programs have one cheapest solution.
+    They replace old ones at the end, file by file, and old certificates and proofs that were not
+    found again are removed; an interrupted build changes nothing. What is found depends on the code
+    and the libraries' versions, not on the number of jobs or on how a machine rounds: every pattern
+    has a random generator of its own, seeded by its position; there is no time limit; points are
+    sought in integers; and linear programs have one cheapest solution.
     """
-    if root.exists() and not root.is_dir():
-        raise FileExistsError(EEXIST, "it is not a folder", str(root))
-    root.parent.mkdir(parents=True, exist_ok=True)
-    beside = root if root.exists() else root.parent
-    with TemporaryDirectory(dir=beside, prefix=".build-") as name:
-        scratch = Path(name)
+    with written_to(root) as scratch:
         for folder in FOLDERS:
             (scratch / folder).mkdir()
         write_patterns(scratch, jobs, report)
         write_completeness(scratch, report)
-        root.mkdir(exist_ok=True)
-        for folder in FOLDERS:
-            if (root / folder).exists():
-                (root / folder).rename(scratch / f"old-{folder}")
-            (scratch / folder).rename(root / folder)
+        found = set(_evidence(scratch))
+    for name in set(_evidence(root)) - found:
+        (root / name).unlink()
+
+
+def _evidence(root: Path) -> list[Path]:
+    """Return the certificates and proofs below a root, by their paths there."""
+    return [
+        path.relative_to(root)
+        for folder, suffix in FOLDERS.items()
+        for path in (root / folder).glob(f"*{suffix}")
+    ]
 
 
 def write_patterns(root: Path, jobs: int, report: Report) -> None:
