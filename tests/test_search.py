@@ -27,6 +27,7 @@ from certify.kernel.jacobian import bernstein_coefficients
 from certify.kernel.orientations import Clause
 from certify.kernel.refutation import excluded_signs, replay
 from certify.kernel.triangulation import boundary_diagonals, orbit, orientation
+from certify.manifest import EVIDENCE
 from certify.mesh.quality import scaled_jacobians
 from certify.search import build
 from certify.search.build import Finding, Refutation, investigate, status, write
@@ -395,7 +396,7 @@ def test_what_is_not_found_is_open(tmp_path: Path) -> None:
 
 def investigate_again(names: Sequence[str], root: Path) -> None:
     """Investigate these patterns of the shipped ones, and write what is found below the root."""
-    for folder in build.FOLDERS:
+    for folder in EVIDENCE:
         (root / folder).mkdir()
     tetrahedra = {name: load(name).tetrahedra for name in names}
     for seed, pattern in enumerate(patterns()):
@@ -481,8 +482,8 @@ def test_building_writes_what_is_shipped(
         pending = iter(proofs.values())
         build.build(root, 1, lambda *line: reports.append(line))
         assert reports == builds * once
-        assert {path.name for path in root.iterdir()} == set(build.FOLDERS)
-        for folder, suffix in build.FOLDERS.items():
+        assert {path.name for path in root.iterdir()} == set(EVIDENCE)
+        for folder, suffix in EVIDENCE.items():
             kept = {"notes": b"mine"} if builds == 2 else {}
             assert contents(root / folder) == contents(shipped / folder) | kept
             (root / folder / f"16_A{suffix}").write_text("stale")

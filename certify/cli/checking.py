@@ -57,12 +57,13 @@ def check_all(
 ) -> None:
     """Check everything, and print the theorems that follow.
 
-    Each of the 174 certificates is checked; --jobs shares the work between processes. With
-    --second-opinion a difference between the kernel and another opinion is a failure; what did
-    not run is named.
+    Each of the 174 certificates is checked; --jobs shares the work between processes. If the folder
+    has a manifest, a file that is not as listed there is a failure. With --second-opinion so is a
+    difference between the kernel and another opinion; what did not run is named.
     """
     start = perf_counter()
     from certify import report
+    from certify.manifest import compare
     from certify.run import run
     from certify.writing import write_file
 
@@ -72,9 +73,10 @@ def check_all(
     with progress() as show:
         outcome = run(folder, jobs, show)
     seconds = perf_counter() - start
-    summary = report.summary(outcome, seconds)
+    manifest = compare(folder, outcome)
+    summary = report.summary(outcome, seconds, manifest)
     if junit:
-        write_file(junit, report.junit(outcome, seconds))
+        write_file(junit, report.junit(outcome, seconds, manifest))
     opinions = _second_opinions(folder, outcome, jobs) if second_opinion else []
     if as_json:
         extra = {"second_opinions": list(map(asdict, opinions))} if second_opinion else {}
@@ -82,7 +84,7 @@ def check_all(
     else:
         _print_summary(summary, outcome.verdicts)
         _print_opinions(opinions)
-    exit_with(outcome.ok and not any(opinion.faults for opinion in opinions))
+    exit_with(summary["ok"] and not any(opinion.faults for opinion in opinions))
 
 
 def _second_opinions(root: Path, outcome: Outcome, jobs: int) -> list[Opinion]:
@@ -190,12 +192,27 @@ def _print_summary(summary: dict[str, Any], verdicts: Sequence[Verdict]) -> None
     for theorem in summary["theorems"]:
         status = "ok" if theorem["ok"] else "not shown"
         print_wrapped(f"{status}: {theorem['id']}: {theorem['statement']}")
+    _print_manifest(summary["manifest"])
     shown = sum(theorem["ok"] for theorem in summary["theorems"])
     print_wrapped(
         f"{'ok' if summary['ok'] else 'not ok'}: {summary['patterns']} accepted, "
         f"{len(summary['rejected'])} rejected, {len(questions)} open, "
         f"{shown} of {len(summary['theorems'])} theorems, {summary['seconds']:.1f} s"
     )
+
+
+def _print_manifest(manifest: dict[str, Any] | None) -> None:
+    """Print one line if the files are as listed, and else a line for each that is not."""
+    from certify.manifest import NAME
+
+    if manifest is None:
+        click.echo(f"no manifest: there is no {NAME} beside certificates/")
+        return
+    for fault in manifest["faults"]:
+        click.echo(f"not as listed: {fault}")
+    if not manifest["faults"]:
+        other = "" if manifest["kernel"] else "; it does not speak of the kernel that runs"
+        print_wrapped(f"manifest: {manifest['files']} files as listed{other}")
 
 
 def _print_counts(accepted: Sequence[Verdict]) -> None:

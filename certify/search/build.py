@@ -21,6 +21,7 @@ from certify.kernel.hexahedron import BOUNDARY_TYPES
 from certify.kernel.orientations import convex_formula, has_sign
 from certify.kernel.refutation import FinalPolynomial
 from certify.kernel.triangulation import label, orbit, orientation
+from certify.manifest import EVIDENCE, evidence
 from certify.run import Report
 from certify.search.enumeration import Pattern, patterns
 from certify.search.final_polynomials import refute_with_polynomials
@@ -42,7 +43,6 @@ Finding = list[list[int]] | Refutation | None
 
 INVESTIGATING = "searching"
 COMPLETING = "completing"
-FOLDERS = {"certificates": ".json", "proofs": ".lrat"}
 
 
 def build(root: Path, jobs: int, report: Report) -> None:
@@ -55,22 +55,13 @@ def build(root: Path, jobs: int, report: Report) -> None:
     sought in integers; and linear programs have one cheapest solution.
     """
     with written_to(root) as scratch:
-        for folder in FOLDERS:
+        for folder in EVIDENCE:
             (scratch / folder).mkdir()
         write_patterns(scratch, jobs, report)
         write_completeness(scratch, report)
-        found = set(_evidence(scratch))
-    for name in set(_evidence(root)) - found:
+        found = evidence(scratch)
+    for name in set(evidence(root)).difference(found):
         (root / name).unlink()
-
-
-def _evidence(root: Path) -> list[Path]:
-    """Return the certificates and proofs below a root, by their paths there."""
-    return [
-        path.relative_to(root)
-        for folder, suffix in FOLDERS.items()
-        for path in (root / folder).glob(f"*{suffix}")
-    ]
 
 
 def write_patterns(root: Path, jobs: int, report: Report) -> None:
