@@ -16,6 +16,7 @@ from certify.kernel.orientations import has_sign
 from certify.kernel.theorems import Outcome
 from certify.kernel.triangulation import label, orientation
 from certify.report import coordinates, json_text
+from certify.writing import write_files
 
 
 def steps(root: Path, certificate: Certificate) -> dict[str, int | None]:
@@ -53,7 +54,7 @@ def export_answer(
         families = of_question(question, answer, orientation(certificate.tetrahedra))
         proof = Evidence(root).proof(answer.proof, answer.digest)
         contents = refutation(families, proof, _about(certificate, question), core)
-    return _write_all(folder / f"{certificate.pattern}.{question}", contents)
+    return _write_all(folder, f"{certificate.pattern}.{question}", contents)
 
 
 def export_completeness(
@@ -70,17 +71,12 @@ def export_completeness(
     families = of_completeness(letter, instances_bounded_by(letter, outcome.verdicts))
     proof = Evidence(root).proof(name, replayed.files[name])
     contents = refutation(families, proof, comments, core)
-    return _write_all(folder / f"complete.{letter}", contents)
+    return _write_all(folder, f"complete.{letter}", contents)
 
 
-def _write_all(stem: Path, contents: dict[str, str]) -> list[Path]:
-    stem.parent.mkdir(parents=True, exist_ok=True)
-    written = []
-    for suffix, content in contents.items():
-        path = stem.with_name(f"{stem.name}.{suffix}")
-        path.write_bytes(content.encode("ascii"))
-        written.append(path)
-    return written
+def _write_all(folder: Path, stem: str, contents: dict[str, str]) -> list[Path]:
+    named = {f"{stem}.{suffix}": text.encode("ascii") for suffix, text in contents.items()}
+    return write_files(folder, named)
 
 
 def refutation(

@@ -12,6 +12,7 @@ from certify.kernel.certificate import QUESTIONS, Answer, Certificate, No, Yes
 from certify.kernel.check import Verdict
 from certify.kernel.chirotope import Point
 from certify.kernel.theorems import Outcome
+from certify.manifest import NAME, Manifest
 from certify.mesh.quality import jacobian_lower_bound, scaled_jacobians
 
 
@@ -99,7 +100,7 @@ def count(verdicts: Iterable[Verdict], question: str, answer: str) -> int:
     return sum(verdict.answers.get(question) == answer for verdict in verdicts)
 
 
-def summary(outcome: Outcome, seconds: float) -> dict[str, Any]:
+def summary(outcome: Outcome, seconds: float, manifest: Manifest | None) -> dict[str, Any]:
     """Return the outcome of checking everything, and what was run on what.
 
     Rejected proofs of completeness are listed after the certificates, with no pattern.
@@ -111,9 +112,10 @@ def summary(outcome: Outcome, seconds: float) -> dict[str, Any]:
         if result.fault is not None
     ]
     return {
-        "ok": outcome.ok,
+        "ok": outcome.ok and not (manifest and manifest.faults),
         "certify": __version__,
         **outcome.about,
+        "manifest": asdict(manifest) if manifest else None,
         "patterns": len(accepted),
         **{question: count(accepted, question, "yes") for question in QUESTIONS},
         "open": outcome.open,
@@ -123,7 +125,7 @@ def summary(outcome: Outcome, seconds: float) -> dict[str, Any]:
     }
 
 
-def junit(outcome: Outcome, seconds: float) -> bytes:
+def junit(outcome: Outcome, seconds: float, manifest: Manifest | None) -> bytes:
     """Return the outcome as JUnit XML, with a test case for each pattern and each theorem."""
     cases = [("patterns", verdict.pattern, verdict.fault) for verdict in outcome.verdicts]
     cases += [("completeness", c.boundary, c.fault) for c in outcome.completeness]
@@ -131,6 +133,8 @@ def junit(outcome: Outcome, seconds: float) -> bytes:
         ("theorems", theorem.id, None if theorem.ok else f"not shown: {theorem.statement}")
         for theorem in outcome.theorems
     ]
+    if manifest:
+        cases.append(("manifest", NAME, "; ".join(manifest.faults) or None))
     failures = sum(fault is not None for _, _, fault in cases)
     totals = {"tests": str(len(cases)), "failures": str(failures), "errors": "0"}
     totals["time"] = f"{seconds:.3f}"

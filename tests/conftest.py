@@ -1,7 +1,7 @@
 """The shipped certificates, read and checked once for all tests."""
 
 from pathlib import Path
-from shutil import copy
+from shutil import copy, copytree
 
 import pytest
 
@@ -50,4 +50,12 @@ def root(tmp_path: Path) -> Path:
     copy(CHECKOUT / "certificates" / "15_A.json", tmp_path / "certificates")
     for proof in (CHECKOUT / "proofs").glob("15_A.*"):
         copy(proof, tmp_path / "proofs")
+    return tmp_path
+
+
+@pytest.fixture
+def everything(tmp_path: Path) -> Path:
+    """Return a root with all certificates and proofs."""
+    for folder in ("certificates", "proofs"):
+        copytree(CHECKOUT / folder, tmp_path / folder)
     return tmp_path

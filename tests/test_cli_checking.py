@@ -4,7 +4,7 @@ import json
 from collections.abc import Callable, Sequence
 from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
-from shutil import copy, copytree
+from shutil import copy
 from xml.etree import ElementTree
 
 import pytest
@@ -91,7 +91,7 @@ def test_check_all_of_the_checkout() -> None:
     code, record = run_json(CHECKOUT, "check-all")
     assert list(record) == [
         "ok", "certify", "python", "sympy", "kernel_sha256", "evidence_sha256",
-        "patterns", *QUESTIONS, "open", "rejected", "theorems", "seconds",
+        "manifest", "patterns", *QUESTIONS, "open", "rejected", "theorems", "seconds",
     ]  # fmt: skip
     assert (code, record["ok"], record["patterns"], record["rejected"]) == (0, True, 174, [])
     for theorem in record["theorems"]:
@@ -145,14 +145,6 @@ def test_jobs_change_nothing_but_the_time(root: Path) -> None:
     alone, together = (run_json(root, "check-all", "--jobs", jobs) for jobs in ("1", "2"))
     assert alone[0] == together[0] == 1
     assert alone[1] | {"seconds": 0} == together[1] | {"seconds": 0}
-
-
-@pytest.fixture
-def everything(tmp_path: Path) -> Path:
-    """Return a root with all certificates and proofs."""
-    for folder in ("certificates", "proofs"):
-        copytree(CHECKOUT / folder, tmp_path / folder)
-    return tmp_path
 
 
 def test_check_all_fails_for_a_theorem_alone(

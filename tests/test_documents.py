@@ -39,7 +39,17 @@ from certify.kernel.validity import corners, edges, sections
 
 ROOT = Path(__file__).resolve().parents[1]
 DOCUMENTS = ("README.md", "CHECKING.md", "FORMAT.md", "docs/API.md")
-COPIED = ("certify", "certificates", "proofs", "docs", "benchmarks", "*.md", "*.toml", "LICENSE")
+COPIED = (
+    "certify",
+    "certificates",
+    "proofs",
+    "docs",
+    "benchmarks",
+    "*.md",
+    "*.toml",
+    "*.sha256",
+    "LICENSE",
+)
 RUN = ("sh", "console", "python", "pycon")
 FILES = ("cnf", "lrat")
 FENCED = re.compile(

@@ -27,6 +27,7 @@ from certify.kernel.jacobian import bernstein_coefficients
 from certify.kernel.orientations import Clause
 from certify.kernel.refutation import excluded_signs, replay
 from certify.kernel.triangulation import boundary_diagonals, orbit, orientation
+from certify.manifest import EVIDENCE
 from certify.mesh.quality import scaled_jacobians
 from certify.search import build
 from certify.search.build import Finding, Refutation, investigate, status, write
@@ -395,7 +396,7 @@ def test_what_is_not_found_is_open(tmp_path: Path) -> None:
 
 def investigate_again(names: Sequence[str], root: Path) -> None:
     """Investigate these patterns of the shipped ones, and write what is found below the root."""
-    for folder in build.FOLDERS:
+    for folder in EVIDENCE:
         (root / folder).mkdir()
     tetrahedra = {name: load(name).tetrahedra for name in names}
     for seed, pattern in enumerate(patterns()):
@@ -455,7 +456,10 @@ def test_building_writes_what_is_shipped(
     shipped_findings: dict[str, dict[str, Finding]],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """Byte for byte, once the same is found; in a new folder, and in the place of an old one."""
+    """Byte for byte, once the same is found; in a new folder, and in the place of an old one.
+
+    There, certificates and proofs that were not found again are removed, and nothing else.
+    """
     names = {certificate.tetrahedra: name for name, certificate in certificates.items()}
     proofs = {
         letter: steps_of(shipped / f"proofs/complete.{letter}.lrat") for letter in BOUNDARY_TYPES
@@ -478,10 +482,12 @@ def test_building_writes_what_is_shipped(
         pending = iter(proofs.values())
         build.build(root, 1, lambda *line: reports.append(line))
         assert reports == builds * once
-        assert {path.name for path in root.iterdir()} == set(build.FOLDERS)
-        for folder in build.FOLDERS:
-            assert contents(root / folder) == contents(shipped / folder)
-            (root / folder / "16_A.json").write_text("stale")
+        assert {path.name for path in root.iterdir()} == set(EVIDENCE)
+        for folder, suffix in EVIDENCE.items():
+            kept = {"notes": b"mine"} if builds == 2 else {}
+            assert contents(root / folder) == contents(shipped / folder) | kept
+            (root / folder / f"16_A{suffix}").write_text("stale")
+            (root / folder / "notes").write_text("mine")
 
 
 def contents(folder: Path) -> dict[str, bytes]:

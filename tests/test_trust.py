@@ -11,6 +11,7 @@ import pytest
 
 from certify.kernel.evidence import kernel_digest
 from certify.kernel.theorems import Outcome
+from certify.manifest import compare
 from certify.opinions import trust
 from certify.opinions.second import not_asked
 from certify.opinions.trust import RECORDS, modules, on_record, page
@@ -48,7 +49,7 @@ def test_checking_md_says_how_long_the_kernel_is() -> None:
 
 
 def test_page_tells_of_this_run(outcome: Outcome) -> None:
-    found = page(outcome, list(not_asked()))
+    found = page(outcome, compare(CHECKOUT, outcome), list(not_asked()))
     assert found["trusted"]["kernel_sha256"] == kernel_digest()
     assert found["replayed"]["ok"]
     assert found["replayed"]["certificates"] == 174

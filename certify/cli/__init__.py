@@ -5,6 +5,7 @@ One module for each group of commands: :mod:`checking`, :mod:`evidence`, :mod:`a
 """
 
 import sys
+from errno import EDQUOT, EFBIG, ENOSPC
 from typing import Any
 
 import click
@@ -14,6 +15,9 @@ from certify.cli import auditing, building, checking, doubting, evidence
 from certify.cli.common import fail
 
 __all__ = ["cli", "main"]
+
+NO_ROOM = (EDQUOT, EFBIG, ENOSPC)
+"""What a system says when a disk is full; no other words to the command would help."""
 
 
 class _Commands(click.Group):
@@ -39,7 +43,8 @@ class _Commands(click.Group):
             fail(f"{error.filename} is not a folder", code=2)
         except OSError as error:
             reason = error.strerror or str(error)
-            fail(f"{error.filename}: {reason}" if error.filename else reason, code=2)
+            code = 1 if error.errno in NO_ROOM else 2
+            fail(f"{error.filename}: {reason}" if error.filename else reason, code)
         sys.exit(code if isinstance(code, int) else 0)
 
     def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002 - click passes it

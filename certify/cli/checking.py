@@ -22,6 +22,7 @@ from certify.cli.common import (
     json_option,
     pattern_argument,
     print_json,
+    print_manifest,
     print_opinions,
     print_table,
     print_wrapped,
@@ -54,13 +55,15 @@ def check_all(
 ) -> None:
     """Check everything, and print the theorems that follow.
 
-    Each of the 174 certificates is checked; --jobs shares the work between processes. With
-    --second-opinion a difference between the kernel and another opinion is a failure; what did
-    not run is named.
+    Each of the 174 certificates is checked; --jobs shares the work between processes. If the folder
+    has a manifest, a file that is not as listed there is a failure. With --second-opinion so is a
+    difference between the kernel and another opinion; what did not run is named.
     """
     start = perf_counter()
     from certify import report
+    from certify.manifest import compare
     from certify.run import run
+    from certify.writing import write_file
 
     folder = existing_root(root)
     if junit and not junit.parent.is_dir():
@@ -68,9 +71,10 @@ def check_all(
     with progress() as show:
         outcome = run(folder, jobs, show)
     seconds = perf_counter() - start
-    summary = report.summary(outcome, seconds)
+    manifest = compare(folder, outcome)
+    summary = report.summary(outcome, seconds, manifest)
     if junit:
-        junit.write_bytes(report.junit(outcome, seconds))
+        write_file(junit, report.junit(outcome, seconds, manifest))
     opinions = second_opinions(folder, outcome, jobs) if second_opinion else []
     if as_json:
         extra = {"second_opinions": list(map(asdict, opinions))} if second_opinion else {}
@@ -78,7 +82,7 @@ def check_all(
     else:
         _print_summary(summary, outcome.verdicts)
         print_opinions(opinions)
-    exit_with(outcome.ok and not any(opinion.faults for opinion in opinions))
+    exit_with(summary["ok"] and not any(opinion.faults for opinion in opinions))
 
 
 @click.command(epilog=examples("certify check 15_A 8_E"))
@@ -166,6 +170,7 @@ def _print_summary(summary: dict[str, Any], verdicts: Sequence[Verdict]) -> None
     for theorem in summary["theorems"]:
         status = "ok" if theorem["ok"] else "not shown"
         print_wrapped(f"{status}: {theorem['id']}: {theorem['statement']}")
+    print_manifest(summary["manifest"])
     shown = sum(theorem["ok"] for theorem in summary["theorems"])
     print_wrapped(
         f"{'ok' if summary['ok'] else 'not ok'}: {summary['patterns']} accepted, "

@@ -255,3 +255,17 @@ def print_opinions(opinions: Sequence[Opinion]) -> None:
             print_wrapped(f"{status}: {opinion.name}: {agree} of {opinion.asked}, {opinion.means}")
         for fault in opinion.faults:
             click.echo(f"differs: {opinion.name}: {fault}")
+
+
+def print_manifest(manifest: dict[str, Any] | None) -> None:
+    """Print one line if the files are as listed, and else a line for each that is not."""
+    from certify.manifest import NAME
+
+    if manifest is None:
+        click.echo(f"no manifest: there is no {NAME} beside certificates/")
+        return
+    for fault in manifest["faults"]:
+        click.echo(f"not as listed: {fault}")
+    if not manifest["faults"]:
+        other = "" if manifest["kernel"] else "; it does not speak of the kernel that runs"
+        print_wrapped(f"manifest: {manifest['files']} files as listed{other}")

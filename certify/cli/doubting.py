@@ -17,6 +17,7 @@ from certify.cli.common import (
     jobs_option,
     json_option,
     print_json,
+    print_manifest,
     print_opinions,
     print_table,
     print_wrapped,
@@ -130,6 +131,7 @@ def trust(jobs: int, root: Path | None, as_json: bool, second_opinion: bool) -> 
     What has to be trusted, what was replayed in this run, which second opinions agree and which did
     not run, how the kernel stood forgeries and mutations, and known limits.
     """
+    from certify.manifest import compare
     from certify.opinions.second import not_asked
     from certify.opinions.trust import page
     from certify.run import run
@@ -138,7 +140,7 @@ def trust(jobs: int, root: Path | None, as_json: bool, second_opinion: bool) -> 
     with progress() as show:
         outcome = run(folder, jobs, show)
     opinions = second_opinions(folder, outcome, jobs) if second_opinion else list(not_asked())
-    found = page(outcome, opinions)
+    found = page(outcome, compare(folder, outcome), opinions)
     if as_json:
         print_json(found)
     else:
@@ -152,7 +154,7 @@ def trust(jobs: int, root: Path | None, as_json: bool, second_opinion: bool) -> 
         _print_heading("Known limits")
         for limit in found["limits"]:
             print_wrapped(f"- {limit}", hanging="  ")
-    exit_with(outcome.ok and not any(opinion.faults for opinion in opinions))
+    exit_with(found["replayed"]["ok"] and not any(opinion.faults for opinion in opinions))
 
 
 def _print_heading(text: str) -> None:
@@ -186,6 +188,7 @@ def _print_replayed(replayed: dict[str, Any]) -> None:
         f"{shown} of {len(replayed['theorems'])} theorems, from {replayed['files']} files"
     )
     click.echo(f"their SHA-256: {replayed['evidence_sha256']}")
+    print_manifest(replayed["manifest"])
 
 
 def _print_on_record(records: dict[str, dict[str, Any] | None]) -> None:

@@ -108,10 +108,15 @@ def digest(files: Mapping[str, str]) -> str:
     return sha256(lines.encode()).hexdigest()
 
 
+def kernel_files() -> dict[str, str]:
+    """Return the SHA-256 of every module of this package, by its name."""
+    here = Path(__file__).parent
+    return {p.name: sha256(p.read_bytes()).hexdigest() for p in here.glob("*.py")}
+
+
 def kernel_digest() -> str:
     """Return one SHA-256 for the modules of this package."""
-    here = Path(__file__).parent
-    return digest({p.name: sha256(p.read_bytes()).hexdigest() for p in here.glob("*.py")})
+    return digest(kernel_files())
 
 
 def default_root() -> Path:

@@ -79,9 +79,14 @@ class Outcome:
         return not self.faults and all(theorem.ok for theorem in self.theorems)
 
     @property
+    def files(self) -> dict[str, str]:
+        """The SHA-256 of every file that was read, by its path below the root."""
+        return {f: sha for result in self.results for f, sha in result.files.items()}
+
+    @property
     def evidence_digest(self) -> str:
         """One SHA-256 for all files that were read (see :func:`certify.kernel.evidence.digest`)."""
-        return digest({f: sha for result in self.results for f, sha in result.files.items()})
+        return digest(self.files)
 
     @property
     def about(self) -> dict[str, str]:

@@ -20,6 +20,7 @@ from sympy.polys.matrices import DomainMatrix
 
 import certify.kernel
 from certify.kernel.theorems import Outcome
+from certify.manifest import Manifest
 from certify.opinions.second import Opinion
 
 RECORDS = {
@@ -93,7 +94,9 @@ def on_record(name: str, kernel: str) -> dict[str, Any] | None:
     return record | {"for_this_kernel": record["kernel_sha256"] == kernel}
 
 
-def page(outcome: Outcome, opinions: Sequence[Opinion]) -> dict[str, Any]:
+def page(
+    outcome: Outcome, manifest: Manifest | None, opinions: Sequence[Opinion]
+) -> dict[str, Any]:
     """Return the page as a JSON object; ``opinions`` are those that were asked in this run."""
     kernel = outcome.about["kernel_sha256"]
     return {
@@ -105,10 +108,11 @@ def page(outcome: Outcome, opinions: Sequence[Opinion]) -> dict[str, Any]:
             "determinants": determinants(),
         },
         "replayed": {
-            "ok": outcome.ok,
+            "ok": outcome.ok and not (manifest and manifest.faults),
             "certificates": sum(verdict.fault is None for verdict in outcome.verdicts),
-            "files": len({file for result in outcome.results for file in result.files}),
+            "files": len(outcome.files),
             "evidence_sha256": outcome.evidence_digest,
+            "manifest": asdict(manifest) if manifest else None,
             "open": len(outcome.open),
             "rejected": outcome.faults,
             "theorems": {theorem.id: theorem.ok for theorem in outcome.theorems},

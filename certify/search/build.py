@@ -1,10 +1,8 @@
 """Everything found again: all patterns, with answers, names, certificates and proofs."""
 
 import json
-from errno import EEXIST
 from hashlib import sha256
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -23,12 +21,14 @@ from certify.kernel.hexahedron import BOUNDARY_TYPES
 from certify.kernel.orientations import convex_formula, has_sign
 from certify.kernel.refutation import FinalPolynomial
 from certify.kernel.triangulation import label, orbit, orientation
+from certify.manifest import EVIDENCE, evidence
 from certify.run import Report
 from certify.search.enumeration import Pattern, patterns
 from certify.search.final_polynomials import refute_with_polynomials
 from certify.search.naming import assign_names
 from certify.search.placement import place
 from certify.search.refutations import Step, lrat, model, refute
+from certify.writing import written_to
 
 
 class Refutation(NamedTuple):
@@ -43,33 +43,25 @@ Finding = list[list[int]] | Refutation | None
 
 INVESTIGATING = "searching"
 COMPLETING = "completing"
-FOLDERS = ("certificates", "proofs")
 
 
 def build(root: Path, jobs: int, report: Report) -> None:
     """Put certificates/ and proofs/, found anew, below ``root``, which is created if need be.
 
-    The two folders replace old ones as a whole and at the end, so that an interrupted build
-    changes nothing. What is found depends on the code and the libraries' versions, not on the
-    number of jobs or on how a machine rounds: every pattern has a random generator of its own,
-    seeded by its position; there is no time limit; points are sought in integers; and linear
-    programs have one cheapest solution.
+    They replace old ones at the end, file by file, and old certificates and proofs that were not
+    found again are removed; an interrupted build changes nothing. What is found depends on the code
+    and the libraries' versions, not on the number of jobs or on how a machine rounds: every pattern
+    has a random generator of its own, seeded by its position; there is no time limit; points are
+    sought in integers; and linear programs have one cheapest solution.
     """
-    if root.exists() and not root.is_dir():
-        raise FileExistsError(EEXIST, "it is not a folder", str(root))
-    root.parent.mkdir(parents=True, exist_ok=True)
-    beside = root if root.exists() else root.parent
-    with TemporaryDirectory(dir=beside, prefix=".build-") as name:
-        scratch = Path(name)
-        for folder in FOLDERS:
+    with written_to(root) as scratch:
+        for folder in EVIDENCE:
             (scratch / folder).mkdir()
         write_patterns(scratch, jobs, report)
         write_completeness(scratch, report)
-        root.mkdir(exist_ok=True)
-        for folder in FOLDERS:
-            if (root / folder).exists():
-                (root / folder).rename(scratch / f"old-{folder}")
-            (scratch / folder).rename(root / folder)
+        found = evidence(scratch)
+    for name in set(evidence(root)).difference(found):
+        (root / name).unlink()
 
 
 def write_patterns(root: Path, jobs: int, report: Report) -> None:

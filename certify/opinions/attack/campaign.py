@@ -17,6 +17,7 @@ from certify.opinions.attack.corpus import ForgedList, Forgery, Record, read_cor
 from certify.opinions.attack.judge import Judge
 from certify.opinions.attack.kinds import KINDS, forge
 from certify.run import Report, mapping, run
+from certify.writing import write_files
 
 CHUNK = 100
 """So many forgeries are tried by one process before it reports."""
@@ -120,8 +121,7 @@ def _judge(root: Path) -> Judge:
 
 
 def write_out(folder: Path, found: Finding) -> Path:
-    """Write a forgery as a root of its own, with what is wrong in ``forgery.json``."""
-    place = folder / str(found.number)
+    """Write a forgery as a root of its own, with what is wrong in ``forgery.json``; return it."""
     forgery = found.forgery
     note: Record = {key: getattr(found, key) for key in ("number", "kind", "outcome", "reason")}
     if isinstance(forgery, ForgedList):
@@ -131,7 +131,5 @@ def write_out(folder: Path, found: Finding) -> Path:
         files = {f"certificates/{forgery.pattern}.json": forgery.certificate, **forgery.proofs}
         note |= {"pattern": forgery.pattern}
     files["forgery.json"] = json.dumps(note).encode()
-    for name, content in files.items():
-        (place / name).parent.mkdir(parents=True, exist_ok=True)
-        (place / name).write_bytes(content)
-    return place
+    write_files(folder / str(found.number), files)
+    return folder / str(found.number)
