@@ -36,12 +36,18 @@ def _steps(root: Path, answer: No) -> int | None:
 
 
 def export_answer(
-    root: Path, certificate: Certificate, question: str, folder: Path, core: bool = False
+    root: Path,
+    certificate: Certificate,
+    question: str,
+    folder: Path,
+    core: bool = False,
+    plain: bool = False,
 ) -> list[Path]:
     """Write the evidence for one answer to files in ``folder``; return them.
 
     A yes makes a JSON file; a no makes a formula and two proofs of its unsatisfiability; an open
     question makes nothing. core: only the clauses of the formula that the proof names.
+    plain: no comments in the formula.
 
     Raises:
         Malformed: A proof cannot be read.
@@ -53,14 +59,23 @@ def export_answer(
     if isinstance(answer, No):
         families = of_question(question, answer, orientation(certificate.tetrahedra))
         proof = Evidence(root).proof(answer.proof, answer.digest)
-        contents = refutation(families, proof, _about(certificate, question), core)
+        comments = None if plain else _about(certificate, question)
+        contents = refutation(families, proof, comments, core)
     return _write_all(folder, f"{certificate.pattern}.{question}", contents)
 
 
 def export_completeness(
-    root: Path, outcome: Outcome, letter: str, folder: Path, core: bool = False
+    root: Path,
+    outcome: Outcome,
+    letter: str,
+    folder: Path,
+    core: bool = False,
+    plain: bool = False,
 ) -> list[Path]:
-    """Write the formula and the two proofs that no triangulation with this boundary is missing."""
+    """Write the formula and the two proofs that no triangulation with this boundary is missing.
+
+    core and plain are as for an answer.
+    """
     comments = [
         f"Triangulations of the hexahedron with boundary type {letter} that are not listed.",
         "Unsatisfiable: the list is complete. The tetrahedra of the variables:",
@@ -70,7 +85,7 @@ def export_completeness(
     (replayed,) = (found for found in outcome.completeness if found.boundary == letter)
     families = of_completeness(letter, instances_bounded_by(letter, outcome.verdicts))
     proof = Evidence(root).proof(name, replayed.files[name])
-    contents = refutation(families, proof, comments, core)
+    contents = refutation(families, proof, None if plain else comments, core)
     return _write_all(folder, f"complete.{letter}", contents)
 
 
@@ -80,9 +95,12 @@ def _write_all(folder: Path, stem: str, contents: dict[str, str]) -> list[Path]:
 
 
 def refutation(
-    families: Families, proof: str, comments: Sequence[str], core: bool
+    families: Families, proof: str, comments: Sequence[str] | None, core: bool
 ) -> dict[str, str]:
-    """Return the formula as DIMACS, the proof as LRAT, and as DRAT, by suffix."""
+    """Return the formula as DIMACS, the proof as LRAT, and as DRAT, by suffix.
+
+    comments: those on top of the formula, followed by what its clauses are; None for none at all.
+    """
     clauses = [(family, clause) for family in families for clause in families[family]]
     numbers = [*range(1, len(clauses) + 1)]
     steps = [line.split() for line in proof.splitlines()]
@@ -90,13 +108,13 @@ def refutation(
         named = {int(word) for step in steps for word in step[step.index("0") + 1 : -1]}
         numbers = sorted(named.intersection(numbers))
         steps = _renumbered(steps, {old: new for new, old in enumerate(numbers, start=1)})
-    comments = [*comments, *_contents(families, numbers)]
-    if core:
-        comments += ["Only the clauses that the proof names. Each with its number in the whole:"]
-        comments += [f"{new}: {old}" for new, old in enumerate(numbers, start=1)]
+    top = [] if comments is None else [*comments, *_contents(families, numbers)]
+    if core and comments is not None:
+        top += ["Only the clauses that the proof names. Each with its number in the whole:"]
+        top += [f"{new}: {old}" for new, old in enumerate(numbers, start=1)]
     added = [step[1 : step.index("0") + 1] for step in steps if step[1] != "d"]
     return {
-        "cnf": write_dimacs([clauses[number - 1][1] for number in numbers], comments),
+        "cnf": write_dimacs([clauses[number - 1][1] for number in numbers], top),
         "lrat": "".join(f"{' '.join(step)}\n" for step in steps),
         "drat": "".join(f"{' '.join(literals)}\n" for literals in added),
     }

@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
+import pytest
 from click.testing import CliRunner
 
 from certify.cli import cli
@@ -91,3 +92,11 @@ def nothing(_: Path) -> None:
 
 
 NO_FILES = [to_nothing, to_itself, Path.mkdir, os.mkfifo, nothing]
+
+needs_scripts = pytest.mark.skipif(os.name != "posix", reason="the program is a shell script")
+
+
+def stand_in(path: Path, commands: str) -> None:
+    """Write a program that does what these shell commands do."""
+    path.write_text(f"#!/bin/sh\n{commands}\n")
+    path.chmod(0o755)

@@ -106,6 +106,14 @@ def test_export_of_a_refutation(root: Path) -> None:
     replay([clause[:-1] for clause in formula], (to / "15_A.realizable.lrat").read_text())
 
 
+def test_export_of_a_plain_core(root: Path) -> None:
+    code, _, _ = run(root, "export", "15_A", "realizable", "--core", "--plain", "--to", str(root))
+    header, *clauses = (root / "15_A.realizable.cnf").read_text().splitlines()
+    assert code == 0
+    assert header.split()[:2] == ["p", "cnf"]
+    assert len(clauses) == int(header.split()[3])
+
+
 def test_export_of_points(root: Path) -> None:
     code, out, _ = run(root, "export", "5_A", "convex", "--to", str(root))
     assert (code, out) == (0, f"5_A convex: {root / '5_A.convex.json'}\n")

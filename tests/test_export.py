@@ -94,6 +94,20 @@ def test_core_of_completeness(shipped: Path, outcome: Outcome, tmp_path: Path) -
     assert check_core(tmp_path / "complete.a", whole) < len(whole) / 5
 
 
+@pytest.mark.parametrize("core", [False, True])
+def test_plain_is_the_same_without_comments(
+    shipped: Path, outcome: Outcome, tmp_path: Path, core: bool
+) -> None:
+    (certificate,) = (accepted(v) for v in outcome.verdicts if v.pattern == "15_K")
+    for name, plain in (("full", False), ("plain", True)):
+        export.export_answer(shipped, certificate, "valid", tmp_path / name, core, plain)
+        export.export_completeness(shipped, outcome, "a", tmp_path / name, core, plain)
+    for path in (tmp_path / "full").iterdir():
+        lines = path.read_text().splitlines(keepends=True)
+        proper = "".join(line for line in lines if not line.startswith("c"))
+        assert (tmp_path / "plain" / path.name).read_text() == proper
+
+
 def test_core_keeps_deletions(tmp_path: Path) -> None:
     families: Families = {"one": ((1, 2), (3,), (1, -2)), "two": ((-1, 3), (-1, -3), (2, 3))}
     proof = "7 1 0 1 3 0\n7 d 1 3 2 0\n8 0 7 4 5 0\n"

@@ -10,8 +10,9 @@ import pytest
 from certify.kernel.certificate import Certificate, Yes
 from certify.kernel.check import Verdict
 from certify.kernel.theorems import Outcome
-from certify.opinions.second import PROGRAMS, Opinion, second_opinions
-from tests.commands import CHECKOUT, run
+from certify.opinions.outside import PROGRAMS
+from certify.opinions.second import Opinion, second_opinions
+from tests.commands import CHECKOUT, needs_scripts, run, stand_in
 
 SOME = ["5_A", "7_A", "15_A", "15_K"]
 
@@ -87,34 +88,19 @@ def test_they_differ_on_forged_verdicts(
     assert found == differing
 
 
-def program(folder: Path, name: str, line: str) -> None:
-    path = folder / name
-    path.write_text(f'#!/bin/sh\ntest -s "$1" && test -s "$2" && echo "{line}"\n')
-    path.chmod(0o755)
-
-
-@pytest.mark.skipif(os.name != "posix", reason="the program is a shell script")
-@pytest.mark.parametrize(
-    ("line", "agrees"),
-    [
-        ("s VERIFIED", True),
-        ("c VERIFIED", True),
-        ("s VERIFIED UNSAT", True),
-        ("s NOT VERIFIED", False),
-        ("VERIFIED", False),
-        ("", False),
-    ],
-)
-def test_programs_must_say_so(
-    some: list[Verdict], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, line: str, agrees: bool
+@needs_scripts
+@pytest.mark.parametrize("spoiled", [False, True])
+def test_programs_on_the_path_are_asked(
+    some: list[Verdict], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, spoiled: bool
 ) -> None:
-    for name in PROGRAMS:
-        program(tmp_path, name, line)
+    for name, program in PROGRAMS.items():
+        stand_in(tmp_path / name, f"echo '{program.accepts}'; exit {program.code + spoiled}")
     monkeypatch.setenv("PATH", str(tmp_path), prepend=os.pathsep)
     opinions = asked([verdict for verdict in some if verdict.pattern == "15_K"])
-    for name in PROGRAMS:
+    for name, program in PROGRAMS.items():
         assert (opinions[name].asked, opinions[name].absent) == (1, None)
-        assert (not opinions[name].faults) == agrees
+        said = f"15_K valid: did not answer: exit code {program.code + 1}, {program.accepts}"
+        assert opinions[name].faults == ([said] if spoiled else [])
 
 
 @pytest.mark.slow

@@ -100,8 +100,11 @@ def show(pattern: str, root: Path | None, as_json: bool) -> None:
     help="Folder to write to.",
 )
 @click.option("--core", is_flag=True, help="Of a formula only the clauses that its proof names.")
+@click.option("--plain", is_flag=True, help="No comments, for programs that cannot read them.")
 @root_option
-def export(pattern: str, question: str, to: Path, core: bool, root: Path | None) -> None:
+def export(
+    pattern: str, question: str, to: Path, core: bool, plain: bool, root: Path | None
+) -> None:
     """Write the evidence for one answer for other programs.
 
     Nothing is written unless the kernel accepts it.
@@ -119,16 +122,16 @@ def export(pattern: str, question: str, to: Path, core: bool, root: Path | None)
     folder = existing_root(root)
     try:
         if pattern == "complete":
-            written = _export_completeness(folder, question, to, core)
+            written = _export_completeness(folder, question, to, core, plain)
         else:
-            written = _export_answer(folder, pattern, question, to, core)
+            written = _export_answer(folder, pattern, question, to, core, plain)
     except Malformed as error:
         fail(f"rejected: {error}", code=1)
     for path in written:
         click.echo(f"{pattern} {question}: {printable(str(path))}")
 
 
-def _export_completeness(root: Path, letter: str, to: Path, core: bool) -> list[Path]:
+def _export_completeness(root: Path, letter: str, to: Path, core: bool, plain: bool) -> list[Path]:
     from certify.export import export_completeness
     from certify.kernel.hexahedron import BOUNDARY_TYPES
     from certify.run import run
@@ -138,10 +141,12 @@ def _export_completeness(root: Path, letter: str, to: Path, core: bool) -> list[
     outcome = run(root)
     if outcome.faults:
         fail(f"rejected: {outcome.faults[0]}", code=1)
-    return export_completeness(root, outcome, letter, to, core)
+    return export_completeness(root, outcome, letter, to, core, plain)
 
 
-def _export_answer(root: Path, name: str, question: str, to: Path, core: bool) -> list[Path]:
+def _export_answer(
+    root: Path, name: str, question: str, to: Path, core: bool, plain: bool
+) -> list[Path]:
     from certify.export import export_answer
     from certify.kernel.certificate import QUESTIONS
     from certify.kernel.check import check_pattern
@@ -154,7 +159,7 @@ def _export_answer(root: Path, name: str, question: str, to: Path, core: bool) -
         fail(verdict_line(verdict), code=1)
     if verdict.answers[question] == "open":
         fail(f"{pattern} {question} is open: there is nothing to export", code=2)
-    return export_answer(root, verdict.certificate, question, to, core)
+    return export_answer(root, verdict.certificate, question, to, core, plain)
 
 
 def _print_claims(records: Sequence[dict[str, Any]], note: str) -> None:

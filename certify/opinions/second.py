@@ -6,13 +6,11 @@ needs a program which is not there does not run, and says so.
 """
 
 import shutil
-import subprocess
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
 from certify.dimacs import read_dimacs
@@ -24,22 +22,13 @@ from certify.kernel.evidence import Evidence, completeness_file
 from certify.kernel.hexahedron import BOUNDARY_TYPES
 from certify.kernel.theorems import Outcome
 from certify.kernel.triangulation import orientation
-from certify.opinions import formulas
+from certify.opinions import formulas, outside
 from certify.opinions.balls import ball_fault, coherent_orientation, instances
 from certify.opinions.bounds import jacobian_fault
 from certify.opinions.exhaustive import triangulations
+from certify.opinions.outside import PROGRAMS
 from certify.opinions.planes import convexity_fault, realization_fault
 from certify.run import Report, mapping
-
-PROGRAMS = {
-    "drat-trim": "drat",
-    "lrat-check": "lrat",
-    "cake_lpr": "lrat",
-}
-"""Checker, looked for on the PATH -> the form of proof that it reads, after the formula."""
-
-SECONDS = 600
-"""A checker that takes longer for one proof has not agreed."""
 
 
 @dataclass
@@ -102,9 +91,10 @@ def not_asked() -> Iterator[Opinion]:
     yield Opinion("completeness", "by an exhaustive search, without a formula")
     absent = None if find_spec("drup") else "it is on PyPI: pip install drup"
     yield Opinion("drup", "by unit propagation, in code extracted from a proof", absent=absent)
-    for program, form in PROGRAMS.items():
-        absent = None if shutil.which(program) else "it is not on the PATH"
-        yield Opinion(program, f"by a program on the PATH, from {form.upper()}", absent=absent)
+    for name, program in PROGRAMS.items():
+        absent = None if shutil.which(name) else "not on the PATH; see docs/outside-checkers.md"
+        means = f"by a program on the PATH, from {program.form.upper()}"
+        yield Opinion(name, means, absent=absent)
 
 
 def _inquiries(root: Path, outcome: Outcome) -> Iterator[Inquiry]:
@@ -114,8 +104,8 @@ def _inquiries(root: Path, outcome: Outcome) -> Iterator[Inquiry]:
             searched = partial(_searched, found.boundary, found.listed)
             yield Inquiry("completeness", found.boundary, searched)
     for refuted in _refuted(root, outcome):
-        for program, form in PROGRAMS.items():
-            yield Inquiry(program, refuted.subject, partial(_run, program, form, refuted))
+        for program in PROGRAMS:
+            yield Inquiry(program, refuted.subject, partial(_run, program, refuted))
         yield Inquiry("drup", refuted.subject, partial(_drup, refuted))
     for letter in (found.boundary for found in outcome.completeness if found.fault is None):
         known = instances_bounded_by(letter, outcome.verdicts)
@@ -220,18 +210,6 @@ def _drup(refuted: Refuted) -> str | None:
     return None if outcome == drup.Outcome.VALID else str(outcome)
 
 
-def _run(program: str, form: str, refuted: Refuted) -> str | None:
-    """Let a program check the core; it agrees if it prints a verdict line that says VERIFIED."""
+def _run(program: str, refuted: Refuted) -> str | None:
     files = refutation(refuted.families(), refuted.proof, [], core=True)
-    with TemporaryDirectory(prefix="certify-") as folder:
-        paths = [Path(folder) / f"core.{suffix}" for suffix in ("cnf", form)]
-        for path in paths:
-            path.write_text(files[path.suffix[1:]], encoding="ascii")
-        try:
-            done = subprocess.run(
-                [program, *map(str, paths)], capture_output=True, timeout=SECONDS, check=False
-            )
-        except (OSError, subprocess.TimeoutExpired) as error:
-            return str(error)
-    verdicts = [line.split()[1:2] for line in done.stdout.decode("ascii", "replace").splitlines()]
-    return None if ["VERIFIED"] in verdicts else f"exit code {done.returncode}, not verified"
+    return outside.fault(program, files["cnf"], files[PROGRAMS[program].form])
