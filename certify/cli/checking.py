@@ -24,6 +24,7 @@ from certify.cli.common import (
     print_json,
     print_table,
     print_wrapped,
+    printable,
     progress,
     root_option,
     verdict_line,
@@ -138,7 +139,6 @@ def replay(formula: Path, proof: Path, as_json: bool) -> None:
     from certify.kernel.evidence import Malformed
     from certify.kernel.refutation import NotRefuted
     from certify.kernel.refutation import replay as kernel_replay
-    from certify.run import printable
 
     for path in (formula, proof):
         if not path.is_file():

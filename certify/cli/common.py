@@ -8,7 +8,7 @@ import shutil
 import sys
 import textwrap
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
@@ -80,11 +80,15 @@ def pattern_argument(name: str, **settings: Any) -> Callable[[F], F]:
     return click.argument(name, callback=_known, shell_complete=_completed, **settings)
 
 
+def printable(text: str) -> str:
+    """Return the text with escapes for what could control a terminal or break a line."""
+    return "".join(char if char.isprintable() else ascii(char)[1:-1] for char in text)
+
+
 def fail(message: str, code: int) -> NoReturn:
     """Print one line on standard error, and exit."""
-    from certify.run import printable
-
-    click.echo(f"certify: {printable(message)}", err=True)
+    with suppress(OSError):  # the exit code tells it too
+        click.echo(f"certify: {printable(message)}", err=True)
     sys.exit(code)
 
 

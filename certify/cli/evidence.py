@@ -21,6 +21,7 @@ from certify.cli.common import (
     print_json,
     print_table,
     print_wrapped,
+    printable,
     require_pattern,
     root_option,
     verdict_line,
@@ -114,7 +115,6 @@ def export(pattern: str, question: str, to: Path, core: bool, root: Path | None)
     pattern with this type of boundary is missing.
     """
     from certify.kernel.evidence import Malformed
-    from certify.run import printable
 
     folder = existing_root(root)
     try:
