@@ -4,8 +4,11 @@ One module for each group of commands: :mod:`checking`, :mod:`evidence`, :mod:`a
 :mod:`doubting`, :mod:`building`; what they share is in :mod:`common`.
 """
 
+import os
 import sys
 from errno import EDQUOT, EFBIG, ENOSPC
+from importlib import import_module
+from pathlib import Path
 from typing import Any
 
 import click
@@ -42,14 +45,28 @@ class _Commands(click.Group):
         except FileExistsError as error:
             fail(f"{error.filename} is not a folder", code=2)
         except OSError as error:
+            # What the user named cannot be used; or the output not be written, or a process died.
             reason = error.strerror or str(error)
-            code = 1 if error.errno in NO_ROOM else 2
+            code = 1 if error.errno in NO_ROOM or not error.filename else 2
             fail(f"{error.filename}: {reason}" if error.filename else reason, code)
+        except Exception as error:
+            if _sympy_fails():
+                fail(f"sympy cannot be imported: {error}", code=1)
+            raise
         sys.exit(code if isinstance(code, int) else 0)
 
     def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002 - click passes it
         """Return the commands in the order of their registration, from common to rare."""
         return list(self.commands)
+
+
+def _sympy_fails() -> bool:
+    """Is sympy what cannot be imported? One bad variable in the environment is enough."""
+    try:
+        import_module("sympy")
+    except Exception:
+        return True
+    return False
 
 
 @click.group(
@@ -89,6 +106,10 @@ for command in (
 
 def main() -> None:
     """Run the command line; whatever a terminal cannot show is written as an escape."""
+    if sys.stderr is None:  # closed before the start
+        sys.stderr = Path(os.devnull).open("w")  # noqa: SIM115 - for as long as the program runs
+    if sys.stdout is None:
+        fail("standard output is closed", code=1)
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="backslashreplace")

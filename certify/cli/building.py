@@ -10,6 +10,7 @@ import click
 from click.shell_completion import get_completion_class
 
 from certify.cli.common import examples, fail, jobs_option, needing, progress
+from certify.printable import printable
 
 
 @click.command(epilog=examples("certify build --jobs 2 --root found"))
@@ -27,7 +28,6 @@ def build(jobs: int, root: Path | None) -> None:
     they are checked.
     """
     from certify.kernel.evidence import default_root
-    from certify.run import printable
 
     if root is None and default_root().name == "data":
         fail("an installed package keeps its certificates: give --root DIR", code=2)

@@ -32,6 +32,7 @@ from certify.cli.common import (
     second_opinions,
     verdict_line,
 )
+from certify.printable import printable
 
 if TYPE_CHECKING:
     from certify.kernel.check import Verdict
@@ -119,7 +120,6 @@ def replay(formula: Path, proof: Path, as_json: bool) -> None:
     from certify.kernel.evidence import Malformed
     from certify.kernel.refutation import NotRefuted
     from certify.kernel.refutation import replay as kernel_replay
-    from certify.run import printable
 
     for path in (formula, proof):
         if not path.is_file():

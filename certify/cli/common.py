@@ -8,11 +8,13 @@ import shutil
 import sys
 import textwrap
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
 import click
+
+from certify.printable import printable
 
 if TYPE_CHECKING:
     from click.shell_completion import CompletionItem
@@ -89,9 +91,8 @@ def pattern_argument(name: str, **settings: Any) -> Callable[[F], F]:
 
 def fail(message: str, code: int) -> NoReturn:
     """Print one line on standard error, and exit."""
-    from certify.run import printable
-
-    click.echo(f"certify: {printable(message)}", err=True)
+    with suppress(OSError):  # the exit code tells it too
+        click.echo(f"certify: {printable(message)}", err=True)
     sys.exit(code)
 
 

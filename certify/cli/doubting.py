@@ -26,6 +26,7 @@ from certify.cli.common import (
     second_opinion_option,
     second_opinions,
 )
+from certify.printable import printable
 
 if TYPE_CHECKING:
     from certify.opinions.attack.campaign import Attack
@@ -60,7 +61,6 @@ def attack(seed: int, count: int, to: Path, jobs: int, root: Path | None, as_jso
     """
     from certify.opinions.attack.campaign import NotAccepted, write_out
     from certify.opinions.attack.campaign import attack as attack_with
-    from certify.run import printable
 
     folder = existing_root(root)
     try:

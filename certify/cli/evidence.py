@@ -25,6 +25,7 @@ from certify.cli.common import (
     root_option,
     verdict_line,
 )
+from certify.printable import printable
 
 if TYPE_CHECKING:
     from certify.kernel.check import Verdict
@@ -117,7 +118,6 @@ def export(
     pattern with this type of boundary is missing.
     """
     from certify.kernel.evidence import Malformed
-    from certify.run import printable
 
     folder = existing_root(root)
     try:

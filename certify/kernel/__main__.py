@@ -1,15 +1,20 @@
 """The kernel's own door: ``python -m certify.kernel [ROOT]`` checks everything below a root.
 
 It prints what was rejected, then the theorems, a line each, and last one line of JSON for machines.
-Exit code 0: all is accepted and every theorem shown; 1: not so; 2: there is no such root.
+Exit code 0: all is accepted and every theorem shown; 1: not so, or it cannot be told, which one
+line on standard error says; 2: there is no such root.
 """
 
 import json
 import sys
+from contextlib import suppress
 from pathlib import Path
 
-from certify.kernel.evidence import default_root
-from certify.kernel.theorems import check_all
+try:
+    from certify.kernel.evidence import default_root
+    from certify.kernel.theorems import check_all
+except Exception as error:  # sympy is not there, or stumbles over a variable of the environment
+    sys.exit(f"the kernel cannot be imported: {error}")
 
 
 def main(arguments: list[str]) -> int:
@@ -36,7 +41,15 @@ def main(arguments: list[str]) -> int:
 
 
 if __name__ == "__main__":
+    if sys.stdout is None:
+        sys.exit("standard output is closed")
     try:
-        sys.exit(main(sys.argv[1:]))
+        code = main(sys.argv[1:])
+        sys.stdout.flush()
     except KeyboardInterrupt:
-        sys.exit(130)
+        code = 130
+    except OSError as error:  # the root cannot be looked at, or the output not be written
+        with suppress(OSError):
+            sys.stdout.close()  # else Python would try once more to write what is left
+        sys.exit(str(error))
+    sys.exit(code)

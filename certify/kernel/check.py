@@ -58,6 +58,8 @@ class Verdict:
 
     def rests_on(self, question: str) -> tuple[str, ...]:
         """Return the files below the root on which the accepted answer to a question rests."""
+        if self.answers.get(question) not in ("yes", "no"):
+            raise ValueError(f"no answer to {question!a} was accepted")
         proof = (proof_file(self.pattern, question),) if self.answers[question] == "no" else ()
         return (certificate_file(self.pattern), *proof)
 

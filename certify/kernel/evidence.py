@@ -3,7 +3,7 @@
 A root is a folder that holds certificates/ and proofs/. Files are named by their path below it.
 """
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from dataclasses import dataclass, field
 from hashlib import sha256
 from pathlib import Path
@@ -33,15 +33,8 @@ class Evidence:
     def proof(self, name: str, digest: str | None = None) -> str:
         """Return the text of a proof, which must have the digest if one is given.
 
-        Raise Malformed if it has not, or is not ASCII text in a file of the folder of proofs.
+        Raise Malformed if it has not, or is not ASCII text.
         """
-        path = self.root / name
-        try:
-            inside = path.resolve().parent == self.root.resolve() / "proofs"
-        except (OSError, RuntimeError):  # a circle of symbolic links
-            raise Malformed(f"{name} cannot be resolved") from None
-        if not inside:
-            raise Malformed(f"{name} is not in the folder of proofs")
         content = self._read(name, MAX_PROOF_BYTES)
         if digest not in (None, self.files[name]):
             what = f"the SHA-256 of {name} is not the one that the certificate states"
@@ -52,6 +45,13 @@ class Evidence:
             raise Malformed(f"{name} is not ASCII text, nor is binary LRAT") from None
 
     def _read(self, name: str, limit: int) -> bytes:
+        """Return the content of a file that really lies below the root: no link leads there."""
+        try:
+            direct = (self.root / name).resolve() == self.root.resolve() / name
+        except (OSError, RuntimeError):  # a circle of symbolic links
+            direct = False
+        if not direct:
+            raise Malformed(f"{name} is a symbolic link, or lies behind one")
         content = read_file(self.root / name, limit)
         self.files[name] = sha256(content).hexdigest()
         return content
@@ -92,10 +92,23 @@ def completeness_file(letter: str) -> str:
     return f"proofs/complete.{letter}.lrat"
 
 
-def strays(root: Path, patterns: tuple[str, ...]) -> list[str]:
-    """Return the names of the files among the certificates that are no pattern's, sorted."""
-    expected = {f"{pattern}.json" for pattern in patterns}
-    return sorted({path.name for path in (root / "certificates").glob("*.json")} - expected)
+def strays(root: Path, expected: Container[str]) -> dict[str, str]:
+    """Return path below the root -> what is wrong with it, for what no verdict tells of.
+
+    That is a file with the suffix of its folder that is not expected, or a folder that cannot be
+    listed. What the two folders may hold besides is nobody's concern.
+    """
+    faults = {}
+    for folder, suffix in (("certificates", ".json"), ("proofs", ".lrat")):
+        try:
+            names = sorted(f"{folder}/{path.name}" for path in (root / folder).iterdir())
+        except OSError as error:
+            faults[folder] = f"the folder cannot be listed: {error.strerror}"
+            continue
+        for name in names:
+            if name.endswith(suffix) and name not in expected:
+                faults[ascii(name)[1:-1]] = "no answer rests on this file"
+    return faults
 
 
 def digest(files: Mapping[str, str]) -> str:

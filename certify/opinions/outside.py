@@ -12,7 +12,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
-from certify.run import printable
+from certify.printable import printable
 
 SECONDS = 600
 """A program that takes longer for one proof has not answered."""
