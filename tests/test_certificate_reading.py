@@ -84,6 +84,16 @@ def instead(place: Arrange) -> Arrange:
     return arrange
 
 
+def linked(path: Path) -> None:
+    """Put a link to the same file in its place."""
+    path.symlink_to(path.rename(path.parents[1] / path.name))
+
+
+def linked_folder(path: Path) -> None:
+    """Put a link in the place of the file's folder."""
+    path.parent.symlink_to(path.parent.rename(path.parents[1] / "elsewhere"))
+
+
 def link_to_nowhere(path: Path) -> None:
     path.symlink_to("nowhere")
 
@@ -92,11 +102,24 @@ def link_to_itself(path: Path) -> None:
     path.symlink_to(path)
 
 
+LINK = "is a symbolic link, or lies behind one"
+
 ARRANGEMENTS: dict[str, tuple[Arrange, str]] = {
     "missing": (Path.unlink, "5_A.json is missing, or is not a regular file"),
     "a folder": (instead(Path.mkdir), "5_A.json is missing, or is not a regular file"),
-    "a broken link": (instead(link_to_nowhere), "5_A.json is missing, or is not a regular file"),
-    "a circle of links": (instead(link_to_itself), "5_A.json is missing, or is not a regular file"),
+    "a link": (linked, f"certificates/5_A.json {LINK}"),
+    "in a folder that is a link": (
+        linked_folder,
+        f"certificates/5_A.json {LINK}",
+    ),
+    "a broken link": (
+        instead(link_to_nowhere),
+        f"certificates/5_A.json {LINK}",
+    ),
+    "a circle of links": (
+        instead(link_to_itself),
+        f"certificates/5_A.json {LINK}",
+    ),
     "no folder": (
         lambda path: path.parent.rename(path.parents[1] / "elsewhere"),
         "5_A.json is missing, or is not a regular file",
@@ -304,11 +327,6 @@ def elsewhere(path: Path) -> Path:
     return path.replace(path.parents[1] / path.name)
 
 
-def linked_folder(path: Path) -> None:
-    """Put a link in the place of the folder of proofs."""
-    path.parent.symlink_to(path.parent.rename(path.parents[1] / "elsewhere"))
-
-
 PROOFS: dict[str, tuple[Arrange, str]] = {
     "missing": (Path.unlink, "15_A.realizable.lrat is missing, or is not a regular file"),
     "a folder": (instead(Path.mkdir), "15_A.realizable.lrat is missing, or is not a regular file"),
@@ -318,15 +336,15 @@ PROOFS: dict[str, tuple[Arrange, str]] = {
     ),
     "a link that leaves the folder": (
         lambda path: path.symlink_to(elsewhere(path)),
-        f"{PROOF} is not in the folder of proofs",
+        f"{PROOF} {LINK}",
     ),
     "in a folder that is a link": (
         linked_folder,
-        f"{PROOF} is not in the folder of proofs",
+        f"{PROOF} {LINK}",
     ),
     "a broken link": (
         instead(link_to_nowhere),
-        "15_A.realizable.lrat is missing, or is not a regular file",
+        f"{PROOF} {LINK}",
     ),
     "of another digest": (
         lambda path: path.write_bytes(path.read_bytes() + b"\n"),
