@@ -1,7 +1,6 @@
 """Run commands on a small root: what tests of the command line share."""
 
 import json
-import os
 import subprocess
 import sys
 from pathlib import Path
@@ -80,14 +79,5 @@ def to_itself(path: Path) -> None:
     path.symlink_to(path.name)
 
 
-def to_outside(path: Path) -> None:
-    outside = path.parent.parent / "outside"
-    outside.write_bytes((CHECKOUT / path.parent.name / path.name).read_bytes())
-    path.symlink_to(outside)
-
-
 def nothing(_: Path) -> None:
     """Leave the place empty."""
-
-
-NO_FILES = [to_nothing, to_itself, Path.mkdir, os.mkfifo, nothing]
