@@ -1,17 +1,21 @@
 """The library: what ``import certify`` offers. Everything is decided by the kernel.
 
 A *root* is a folder with certificates/ and proofs/; by default it is the one that comes with the
-code. What is wrong with an argument is told by a ValueError.
+code. What is wrong with an argument is told by a ValueError; a root that is no path at all is a
+TypeError.
 """
 
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import islice
 from numbers import Integral, Rational
 from pathlib import Path
+from typing import TypeVar
 
 from certify.kernel.certificate import (
+    MAX_DIGITS,
     PATTERN_NAMES,
     QUESTIONS,
     Certificate,
@@ -50,6 +54,11 @@ __all__ = [
 
 Coordinate = int | Rational | str
 """An integer, a fraction, or a string like "-3" or "1/2"."""
+
+MAX_CLAUSES = 10_000_000
+"""More clauses, or literals in one, are taken to be endless."""
+
+T = TypeVar("T")
 
 _EXACT = re.compile(r"-?[0-9]+(/0*[1-9][0-9]*)?", re.ASCII)
 
@@ -157,14 +166,18 @@ def check(pattern: str, root: Path | str | None = None) -> Verdict:
 def check_all(*, root: Path | str | None = None, jobs: int = 1) -> Outcome:
     """Return the verdicts on all certificates, and the theorems that they prove together.
 
-    It takes a few seconds; ``jobs`` processes share the work.
+    It takes a few seconds; ``jobs`` processes share the work, but never more than 61.
+
+    Raises:
+        ValueError: There is no such root, or jobs is not a positive integer.
+        ChildProcessError: One of the processes was killed.
 
     >>> outcome = check_all()
     >>> outcome.ok, len(outcome.verdicts), sum(theorem.ok for theorem in outcome.theorems)
     (True, 174, 16)
     """
     if type(jobs) is not int or jobs < 1:
-        raise ValueError(f"jobs is {jobs!a}, but it must be a positive integer")
+        raise ValueError(f"jobs is {_short(jobs)}, but it must be a positive integer")
     return run(_root(root), jobs)
 
 
@@ -180,7 +193,8 @@ def require(
         pattern: A name; its tetrahedra are read from its certificate.
         question: "realizable", "convex" or "valid".
         points: Eight points of three exact coordinates each, vertex 1 first: integers, fractions,
-            or strings "p/q". Floats are refused, since they seldom are the numbers that were meant.
+            or strings "p/q" of at most 80 characters. Floats are refused, since they seldom are
+            the numbers that were meant.
         root: Where the certificate is.
 
     Raises:
@@ -196,11 +210,10 @@ def require(
     ...
     certify.kernel.embedding.NotRealized: tetrahedron 2368 is inverted
     """
-    if not isinstance(points, Iterable):
-        raise ValueError(f"{points!a} is not eight points")
-    exact = tuple(_point(vertex, point) for vertex, point in enumerate(points, start=1))
-    if len(exact) != len(VERTICES):
-        raise ValueError(f"there are {len(exact)} points instead of eight")
+    given = _items(points, len(VERTICES), "the points")
+    if len(given) != len(VERTICES):
+        raise ValueError(f"there are {len(given)} points instead of eight")
+    exact = tuple(_point(vertex, point) for vertex, point in enumerate(given, start=1))
     verdict = check(pattern, root)
     if verdict.certificate is None or not verdict.instances:
         raise Malformed(verdict.fault)
@@ -218,54 +231,81 @@ def replay(clauses: Iterable[Iterable[int]], proof: str) -> int:
             from 1.
         proof: The text of an LRAT file.
 
+    Raises:
+        NotRefuted: It does not; the message says where.
+        ValueError: These are not clauses, or more than ten million, or the proof is not a text.
+
     >>> replay([(1, 2), (-1, 2), (1, -2), (-1, -2)], "5 2 0 1 2 0\n6 0 5 3 4 0\n")
     2
     """
     if not isinstance(proof, str):
         raise ValueError(f"the proof is a {type(proof).__name__}, not a text")
-    return kernel_replay([_clause(*item) for item in enumerate(clauses, start=1)], proof)
+    given = _items(clauses, MAX_CLAUSES, "the formula")
+    return kernel_replay([_clause(*item) for item in enumerate(given, start=1)], proof)
+
+
+def _items(given: Iterable[T], most: int, what: str) -> tuple[T, ...]:
+    """Return what is given one by one, but no more than ``most`` items: it may have no end.
+
+    Bytes have items too, integers even, but whoever gives them means something else.
+    """
+    if isinstance(given, str | bytes | bytearray) or not isinstance(given, Iterable):
+        raise ValueError(f"{what}: {_short(given)} is not a list")
+    items = tuple(islice(given, most + 1))
+    if len(items) > most:
+        raise ValueError(f"{what}: there are more than {most}")
+    return items
+
+
+def _short(value: object) -> str:
+    """Return a value as a message shows it."""
+    return f"{value!a:.80}"
 
 
 def _clause(number: int, clause: Iterable[int]) -> Clause:
-    literals = tuple(clause) if isinstance(clause, Iterable) else (None,)
+    literals = _items(clause, MAX_CLAUSES, f"clause {number}")
     if not all(isinstance(x, Integral) and not isinstance(x, bool) and x for x in literals):
-        raise ValueError(f"clause {number} is {clause!a}, not some non-zero integers")
+        raise ValueError(f"clause {number} is {_short(clause)}, not some non-zero integers")
     return tuple(map(int, literals))
 
 
 def _root(root: Path | str | None) -> Path:
     folder = default_root() if root is None else Path(root)
-    if not (folder / "certificates").is_dir():
-        raise ValueError(f"{folder} has no folder certificates")
-    return folder
+    try:
+        if (folder / "certificates").is_dir():
+            return folder
+    except OSError as error:
+        raise ValueError(f"{_short(str(folder))} cannot be used: {error.strerror}") from None
+    raise ValueError(f"{folder} has no folder certificates")
 
 
 def _pattern(name: str) -> str:
     if name not in PATTERN_NAMES:
-        raise ValueError(f"unknown pattern {name!a}; certify.patterns() lists them")
+        raise ValueError(f"unknown pattern {_short(name)}; certify.patterns() lists them")
     return name
 
 
 def _question(name: str) -> str:
     if name not in QUESTIONS:
-        raise ValueError(f"unknown question {name!a}; it must be one of {', '.join(QUESTIONS)}")
+        raise ValueError(
+            f"unknown question {_short(name)}; it must be one of {', '.join(QUESTIONS)}"
+        )
     return name
 
 
 def _point(vertex: int, point: Iterable[Coordinate]) -> Point:
-    if isinstance(point, str) or not isinstance(point, Iterable):
-        raise ValueError(f"vertex {vertex}: {point!a} is not a point of three coordinates")
-    coordinates = tuple(_coordinate(vertex, value) for value in point)
-    if len(coordinates) != 3:
-        raise ValueError(f"vertex {vertex} has {len(coordinates)} coordinates instead of three")
-    return coordinates
+    given = _items(point, 3, f"vertex {vertex}")
+    if len(given) != 3:
+        raise ValueError(f"vertex {vertex} has {len(given)} coordinates instead of three")
+    return tuple(_coordinate(vertex, value) for value in given)
 
 
 def _coordinate(vertex: int, value: Coordinate) -> Fraction:
-    if isinstance(value, str) and _EXACT.fullmatch(value):
+    if isinstance(value, str) and len(value) <= 2 * MAX_DIGITS and _EXACT.fullmatch(value):
         return Fraction(value)
     if isinstance(value, Rational) and not isinstance(value, bool):
         return Fraction(int(value.numerator), int(value.denominator))
     raise ValueError(
-        f"vertex {vertex}: {value!a} is not exact; give an integer, a Fraction, or a string p/q"
+        f"vertex {vertex}: {_short(value)} is not exact; "
+        "give an integer, a Fraction, or a string p/q of at most 80 characters"
     )

@@ -81,17 +81,9 @@ def to_itself(path: Path) -> None:
     path.symlink_to(path.name)
 
 
-def to_outside(path: Path) -> None:
-    outside = path.parent.parent / "outside"
-    outside.write_bytes((CHECKOUT / path.parent.name / path.name).read_bytes())
-    path.symlink_to(outside)
-
-
 def nothing(_: Path) -> None:
     """Leave the place empty."""
 
-
-NO_FILES = [to_nothing, to_itself, Path.mkdir, os.mkfifo, nothing]
 
 needs_scripts = pytest.mark.skipif(os.name != "posix", reason="the program is a shell script")
 

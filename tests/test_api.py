@@ -3,15 +3,18 @@
 import doctest
 import subprocess
 import sys
+from concurrent.futures.process import BrokenProcessPool
 from fractions import Fraction
+from itertools import repeat
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 import pytest
 
 import certify
 from certify import api
+from certify import run as running
 from certify.kernel.certificate import PATTERN_NAMES
 from certify.kernel.hexahedron import CORNERS
 from tests.commands import five_a, write
@@ -93,11 +96,20 @@ def test_check_of_another_root(root: Path) -> None:
         (lambda: certify.check_all(jobs="2"), "jobs is '2'"),  # type: ignore[arg-type]
         (lambda: certify.check("5_A", root="/nowhere"), "/nowhere has no folder certificates"),
         (lambda: certify.check_all(root="/nowhere"), "/nowhere has no folder certificates"),
-        (lambda: certify.require("5_A", "valid", None), "None is not eight points"),  # type: ignore[arg-type]
-        (lambda: certify.replay([1, 2], ""), "clause 1 is 1, not some non-zero integers"),  # type: ignore[list-item]
+        (lambda: certify.require("5_A", "valid", None), "the points: None is not a list"),  # type: ignore[arg-type]
+        (lambda: certify.replay([1, 2], ""), "clause 1: 1 is not a list"),  # type: ignore[list-item]
         (lambda: certify.replay([], b""), "the proof is a bytes, not a text"),  # type: ignore[arg-type]
         (lambda: certify.replay([(1, 0)], ""), r"clause 1 is \(1, 0\), not some non-zero integers"),
         (lambda: certify.replay([(1,), (True,)], ""), "clause 2 is"),
+        (lambda: certify.replay([b"\1\2"], ""), "clause 1: b.* is not a list"),
+        (lambda: certify.replay(repeat((1,)), ""), "the formula: there are more than 10000000"),
+        (lambda: certify.replay([repeat(1)], ""), "clause 1: there are more than 10000000"),
+        (lambda: certify.replay(None, ""), "the formula: None is not a list"),  # type: ignore[arg-type]
+        (lambda: certify.check("x" * 10**7), "unknown pattern 'x{79}; certify"),
+        (lambda: certify.check("5_A", root="x" * 5000), "x{79} cannot be used: File name too long"),
+        (lambda: certify.check_all(root="x" * 5000), "x{79} cannot be used: File name too long"),
+        (lambda: certify.check("5_A").rests_on("nice"), "no answer to 'nice' was accepted"),
+        (lambda: certify.check_all(jobs=True), "jobs is True, but it must be a positive integer"),
     ],
 )
 def test_wrong_arguments(call: Any, message: str) -> None:
@@ -109,10 +121,16 @@ def test_wrong_arguments(call: Any, message: str) -> None:
     ("points", "message"),
     [
         (CUBE[:7], "there are 7 points instead of eight"),
-        ([*CUBE, (0, 0, 0)], "there are 9 points instead of eight"),
+        (repeat((0, 0, 0)), "the points: there are more than 8"),
+        ([repeat(0)] * 8, "vertex 1: there are more than 3"),
+        (b"12345678", "the points: b.* is not a list"),
+        ([*CUBE[:7], b"\0\1\1"], "vertex 8: b.* is not a list"),
+        ([*CUBE[:7], (0, 1, "9" * 81)], "vertex 8: .* is not exact; .* of at most 80 characters"),
+        ([*CUBE[:7], (0, 1, "9" * 10**7)], "vertex 8: '9{79} is not exact"),
+        ([*CUBE, (0, 0, 0)], "the points: there are more than 8"),
         ([*CUBE[:7], (0, 1)], "vertex 8 has 2 coordinates instead of three"),
-        ([*CUBE[:7], 5], "vertex 8: 5 is not a point of three coordinates"),
-        ([*CUBE[:7], "011"], "vertex 8: '011' is not a point of three coordinates"),
+        ([*CUBE[:7], 5], "vertex 8: 5 is not a list"),
+        ([*CUBE[:7], "011"], "vertex 8: '011' is not a list"),
         *(
             ([*CUBE[:7], (0, 1, x)], "vertex 8: .* is not exact; give an integer, a Fraction")
             for x in (1.0, float("nan"), float("inf"), True, None, "1e9", "1/0", "one", [1], 1j)
@@ -137,6 +155,27 @@ def test_wrong_points(points: Any, message: str) -> None:
 )
 def test_exact_points_of_all_kinds(points: Any) -> None:
     certify.require("5_A", "valid", points)
+
+
+def test_rests_on_of_what_is_not_accepted(root: Path) -> None:
+    write(root, five_a() | {"valid": {"answer": "open"}})
+    with pytest.raises(ValueError, match="no answer to 'valid' was accepted"):
+        certify.check("5_A", root).rests_on("valid")
+
+
+def test_no_more_processes_than_every_system_allows(
+    root: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked = []
+
+    def pool(jobs: int, **_: Any) -> NoReturn:
+        asked.append(jobs)
+        raise BrokenProcessPool
+
+    monkeypatch.setattr(running, "ProcessPoolExecutor", pool)
+    with pytest.raises(ChildProcessError, match="was killed"):
+        certify.check_all(root=root, jobs=10**9)
+    assert asked == [61]
 
 
 def test_points_that_do_not_show_it() -> None:

@@ -57,15 +57,16 @@ def test_determinant_is_the_leibniz_sum(rows: list[list[int]]) -> None:
 
 @examples(100)
 @given(RATIONAL_POINTS)
-def test_integral_points_are_one_positive_multiple(points: list[tuple[Fraction, ...]]) -> None:
-    pairs = [
-        (x, y)
-        for p, q in zip(points, integral(points), strict=True)
-        for x, y in zip(p, q, strict=True)
-    ]
-    scale = next((y / x for x, y in pairs if x), Fraction(1))
-    assert scale > 0
-    assert all(type(y) is int and y == scale * x for x, y in pairs)
+def test_an_axis_of_integral_points_is_a_positive_multiple(
+    points: list[tuple[Fraction, ...]],
+) -> None:
+    for given_axis, axis in zip(
+        zip(*points, strict=True), zip(*integral(points), strict=True), strict=True
+    ):
+        pairs = list(zip(given_axis, axis, strict=True))
+        scale = next((y / x for x, y in pairs if x), Fraction(1))
+        assert scale > 0
+        assert all(type(y) is int and y == scale * x for x, y in pairs)
 
 
 @examples(40)

@@ -3,12 +3,13 @@
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from shutil import copytree
 from types import ModuleType, SimpleNamespace
 from typing import Any
 
 import pytest
 
-from tests.commands import CHECKOUT, assert_usage_error, run, run_json
+from tests.commands import CHECKOUT, assert_usage_error, five_a, run, run_json, write
 
 # audit
 
@@ -67,6 +68,16 @@ def test_audit_decides_nothing_on_rejected_certificates(root: Path) -> None:
     assert "    Failed: theorem valid-sizes; 11_AD, 11_AE valid = no; " in out
 
 
+def test_audit_fails_where_an_answer_is_open(tmp_path: Path) -> None:
+    copytree(CHECKOUT / "certificates", tmp_path / "certificates")
+    copytree(CHECKOUT / "proofs", tmp_path / "proofs")
+    write(tmp_path, five_a() | {"valid": {"answer": "open"}})
+    code, record = run_json(tmp_path, "audit")
+    assert (code, record["rejected"]) == (1, [])
+    failed = [finding for finding in record["findings"] if finding["failed"]]
+    assert {finding["verdict"] for finding in failed} == {"not decided here"}
+
+
 # spheres
 
 
@@ -81,18 +92,26 @@ def fake_derivation(agrees: bool) -> ModuleType:
 
 
 @pytest.mark.parametrize("agrees", [True, False])
-def test_spheres_tells_what_it_found(
-    root: Path, monkeypatch: pytest.MonkeyPatch, agrees: bool
-) -> None:
+def test_spheres_tells_what_it_found(monkeypatch: pytest.MonkeyPatch, agrees: bool) -> None:
     monkeypatch.setitem(sys.modules, "certify.opinions.derivation", fake_derivation(agrees))
     found = (
         f"{'ok' if agrees else 'not ok'}: 3 spheres with nine vertices, 2 classes of hexahedra,\n"
         "2 classes of decomposition graphs; these are "
         f"{'' if agrees else 'not '}the accepted patterns\n"
     )
-    assert run(root, "spheres") == (0 if agrees else 1, found, "")
-    _, record = run_json(root, "spheres")
-    assert record == {"spheres": 3, "classes": 2, "graphs": 2, "agrees": agrees}
+    assert run(CHECKOUT, "spheres") == (0 if agrees else 1, found, "")
+    _, record = run_json(CHECKOUT, "spheres")
+    assert record == {"spheres": 3, "classes": 2, "graphs": 2, "agrees": agrees, "rejected": []}
+
+
+def test_spheres_fails_where_something_is_rejected(
+    root: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "certify.opinions.derivation", fake_derivation(True))
+    code, out, err = run(root, "spheres")
+    assert (code, err) == (1, "")
+    assert out.startswith("rejected: certificates/6_A.json: 6_A.json is missing")
+    assert out.endswith("these are the accepted patterns\n")
 
 
 # build
@@ -120,8 +139,8 @@ def test_build_calls_the_search(tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
 
 def test_build_without_the_extra(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delitem(sys.modules, "certify.search.build", raising=False)
-    monkeypatch.setitem(sys.modules, "joblib", None)
-    message = "joblib is not installed: run pip install '.[search]' in a checkout, or pip install"
+    monkeypatch.setitem(sys.modules, "numpy", None)
+    message = "numpy is not installed: run pip install '.[search]' in a checkout, or pip install"
     assert_usage_error(run(tmp_path, "build"), message)
 
 

@@ -1,10 +1,9 @@
 """The commands that check: check, check-all, replay."""
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
-from shutil import copy
 from xml.etree import ElementTree
 
 import pytest
@@ -157,16 +156,45 @@ def test_check_all_fails_for_a_theorem_alone(
     assert (code, record["ok"], record["rejected"]) == (1, False, [])
 
 
-@pytest.mark.parametrize("name", ["5_B.json", "README.json", ".json"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        *("certificates/5_B.json", "certificates/README.json", "certificates/.json"),
+        *("proofs/x.lrat", "proofs/5_B.valid.lrat", "proofs/complete.h.lrat"),
+        "proofs/5_A.valid.lrat",  # 5_A answers yes
+    ],
+)
 def test_check_all_rejects_strays(everything: Path, name: str) -> None:
-    copy(everything / "certificates" / "5_A.json", everything / "certificates" / name)
+    (everything / name).touch()
     code, record = run_json(everything, "check-all")
     assert code == 1
-    (rejected,) = record["rejected"]
-    assert rejected["fault"].startswith("certificates/")
-    assert rejected["fault"].endswith("the file is not named after a pattern")
+    fault = f"{name}: no answer rests on this file"
+    assert record["rejected"] == [{"pattern": name, "fault": fault}]
     assert record["patterns"] == 174
     assert all(theorem["ok"] for theorem in record["theorems"])
+
+
+@pytest.mark.parametrize("name", ["certificates/README", "proofs/5_A.valid.drat"])
+def test_files_of_other_kinds_are_nobodys_concern(everything: Path, name: str) -> None:
+    (everything / name).touch()
+    assert run(everything, "check-all")[0] == 0
+
+
+@pytest.mark.parametrize("folder", ["certificates", "proofs"])
+def test_check_all_rejects_a_folder_that_cannot_be_listed(
+    everything: Path, folder: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    list_it = Path.iterdir
+
+    def refuse(path: Path) -> Iterator[Path]:
+        if path.name == folder:
+            raise PermissionError(13, "Permission denied")
+        return list_it(path)
+
+    monkeypatch.setattr(Path, "iterdir", refuse)
+    code, record = run_json(everything, "check-all")
+    fault = f"{folder}: the folder cannot be listed: Permission denied"
+    assert (code, record["rejected"]) == (1, [{"pattern": folder, "fault": fault}])
 
 
 @pytest.mark.parametrize("place", [nothing, to_itself, lambda path: path.write_text("1 0 0\n")])
@@ -224,7 +252,8 @@ def test_processes_that_are_killed(root: Path, monkeypatch: pytest.MonkeyPatch) 
         raise BrokenProcessPool
 
     monkeypatch.setattr(running, "ProcessPoolExecutor", broken)
-    assert_rejects(run(root, "check-all", "--jobs", "2"), "", "a process that checks was killed")
+    line = "certify: a process that checks was killed\n"
+    assert run(root, "check-all", "--jobs", "2") == (1, "", line)
 
 
 @pytest.mark.parametrize("jobs", ["0", "-1", "x"])

@@ -66,8 +66,8 @@ def test_coefficients_are_eight_times_those_of_the_jacobian(
     points = exact(
         [Fraction(x, d) for x in p] for p, d in zip(placement, denominators, strict=True)
     )
-    scale = lcm(*(x.denominator for point in points for x in point))
-    assert bernstein_form(bernstein_coefficients(points)) == 8 * scale**3 * jacobian(points)
+    scale = prod(lcm(*(x.denominator for x in axis)) for axis in zip(*points, strict=True))
+    assert bernstein_form(bernstein_coefficients(points)) == 8 * scale * jacobian(points)
 
 
 @pytest.mark.parametrize("axis", range(3))

@@ -63,8 +63,9 @@ def audit(
 ) -> None:
     """Give every claim of the paper a verdict.
 
-    Everything is checked first; a claim that rests on something rejected is not decided. With IDs,
-    only these claims are printed. With --only corrected, the weightiest corrections come first.
+    Everything is checked first; a claim that rests on something rejected or open is not decided,
+    and the exit code is then 1. With IDs, only these claims are printed. With --only corrected, the
+    weightiest corrections come first.
     """
     from certify.audit import VERDICTS, corrections, load_shipped, summary
     from certify.audit import audit as findings_of
@@ -97,7 +98,7 @@ def audit(
             click.echo("none of the claims asked for has this verdict\n")
         counts = ", ".join(f"{number} {verdict}" for verdict, number in summary(findings).items())
         print_wrapped(f"{len(findings)} claims: {counts}", hanging="")
-    exit_with(not outcome.faults)
+    exit_with(not outcome.faults and not any(finding.failed for finding in findings))
 
 
 def _print_finding(finding: Finding) -> None:
@@ -137,7 +138,8 @@ def spheres(root: Path | None, as_json: bool) -> None:
     """Derive the 174 patterns the paper's way.
 
     They come from the triangulations of the 3-sphere with nine vertices, and are compared with
-    those that the kernel accepts. This is a second opinion: no theorem needs it.
+    those that the kernel accepts. This is a second opinion: no theorem needs it. The exit code is 1
+    if they differ, or if anything was rejected.
     """
     from certify.run import run
 
@@ -153,12 +155,14 @@ def spheres(root: Path | None, as_json: bool) -> None:
         "agrees": found.agrees,
     }
     if as_json:
-        print_json(record)
+        print_json({**record, "rejected": outcome.faults})
     else:
+        for fault in outcome.faults:
+            click.echo(f"rejected: {fault}")
         click.echo(
             f"{'ok' if found.agrees else 'not ok'}: {found.spheres} spheres with nine vertices, "
             f"{len(found.hexahedra)} classes of hexahedra,\n"
             f"{found.graphs} classes of decomposition graphs; "
             f"these are {'' if found.agrees else 'not '}the accepted patterns"
         )
-    exit_with(found.agrees)
+    exit_with(found.agrees and not outcome.faults)

@@ -52,7 +52,7 @@ jobs_option = click.option(
     default=1,
     metavar="N",
     callback=_at_least_one,
-    help="Number of processes (default 1).",
+    help="Number of processes (default 1, at most 61).",
 )
 
 

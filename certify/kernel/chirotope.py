@@ -48,15 +48,20 @@ def determinant(rows: Sequence[Sequence[int]]) -> int:
     return int(DomainMatrix([list(map(ZZ, row)) for row in rows], (size, size), ZZ).det())
 
 
-def common_denominator(points: Sequence[Point]) -> int:
-    """Return the least common denominator of all coordinates."""
-    return lcm(*(coordinate.denominator for point in points for coordinate in point))
+def denominators(points: Sequence[Point]) -> list[int]:
+    """Return the least common denominator of the coordinates along each of the three axes."""
+    return [lcm(*(x.denominator for x in axis)) for axis in zip(*points, strict=True)]
 
 
 def integral(points: Sequence[Point]) -> list[tuple[int, ...]]:
-    """Return the points times their common denominator: same signs, integer coordinates."""
-    scale = common_denominator(points)
-    return [tuple(int(coordinate * scale) for coordinate in point) for point in points]
+    """Return the points with each axis stretched by its common denominator: integer coordinates.
+
+    This is a linear map whose determinant is positive, the product of the three. It keeps the sign
+    of every determinant, multiplies the Jacobian by its own, and so changes no answer. One scale
+    for all axes would do as well, but make a determinant up to three times as long.
+    """
+    scales = denominators(points)
+    return [tuple(int(x * s) for x, s in zip(point, scales, strict=True)) for point in points]
 
 
 def chirotope(points: Sequence[Point]) -> Chirotope:

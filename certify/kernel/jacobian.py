@@ -28,7 +28,7 @@ _BIT = (0, 1)
 
 
 def bernstein_coefficients(points: Sequence[Point]) -> Coefficients:
-    """Return eight times the 27 Bernstein coefficients of J, for integer multiples of the points.
+    """Return eight times the 27 Bernstein coefficients of J, for the points made integral.
 
     The derivative in u is constant in u and linear in v and w, with the four edges in direction u
     as coefficients; likewise for v and w. In a product of linear Bernstein polynomials

@@ -2,9 +2,9 @@
 
 from collections.abc import Sequence
 from fractions import Fraction
-from math import prod, sqrt
+from math import lcm, prod, sqrt
 
-from certify.kernel.chirotope import Point, common_denominator, determinant, integral
+from certify.kernel.chirotope import Point, denominators, determinant
 from certify.kernel.hexahedron import CORNERS
 from certify.kernel.jacobian import bernstein_coefficients, halves
 from certify.kernel.validity import across
@@ -19,7 +19,7 @@ def jacobian_lower_bound(points: Sequence[Point]) -> Fraction:
     It is the least Bernstein coefficient on the 8^DEPTH parts of the cube (see jacobian.py).
     """
     boxes = [bernstein_coefficients(points)]
-    unit = 8 * common_denominator(points) ** 3
+    unit = 8 * prod(denominators(points))
     for axis in (0, 1, 2) * DEPTH:
         boxes = [half for box in boxes for half in halves(box, axis)]
         unit *= 4
@@ -31,7 +31,8 @@ def scaled_jacobians(points: Sequence[Point]) -> list[float]:
 
     It is the determinant of the three edges at the corner over the product of their lengths.
     """
-    scaled = integral(points)
+    scale = lcm(*denominators(points))  # one for all axes, as lengths are compared
+    scaled = [[int(x * scale) for x in point] for point in points]
     result = []
     for vertex, corner in CORNERS.items():
         edges = [

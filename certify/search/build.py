@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from joblib import Parallel, delayed
 
 from certify.kernel.certificate import FORMAT, PATTERN_NAMES, QUESTIONS
 from certify.kernel.check import (
@@ -22,7 +21,7 @@ from certify.kernel.orientations import convex_formula, has_sign
 from certify.kernel.refutation import FinalPolynomial
 from certify.kernel.triangulation import label, orbit, orientation
 from certify.manifest import EVIDENCE, evidence
-from certify.run import Report
+from certify.run import Report, mapping
 from certify.search.enumeration import Pattern, patterns
 from certify.search.final_polynomials import refute_with_polynomials
 from certify.search.naming import assign_names
@@ -68,13 +67,11 @@ def write_patterns(root: Path, jobs: int, report: Report) -> None:
     """Find every pattern and its answers, and write its certificate and proofs."""
     found = patterns()
     findings: list[dict[str, Finding]] = []
-    work = Parallel(n_jobs=jobs, return_as="generator")(
-        delayed(investigate)(pattern, seed) for seed, pattern in enumerate(found)
-    )
     report(INVESTIGATING, 0, len(found))
-    for answers in work:
-        findings.append(answers)
-        report(INVESTIGATING, len(findings), len(found))
+    with mapping(jobs) as mapped:
+        for answers in mapped(investigate, found, range(len(found))):
+            findings.append(answers)
+            report(INVESTIGATING, len(findings), len(found))
     facts = [
         (len(pattern.tetrahedra), pattern.boundary, status(pattern, answers))
         for pattern, answers in zip(found, findings, strict=True)
