@@ -4,6 +4,7 @@ import json
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
+from shutil import rmtree
 from xml.etree import ElementTree
 
 import pytest
@@ -144,6 +145,61 @@ def test_jobs_change_nothing_but_the_time(root: Path) -> None:
     alone, together = (run_json(root, "check-all", "--jobs", jobs) for jobs in ("1", "2"))
     assert alone[0] == together[0] == 1
     assert alone[1] | {"seconds": 0} == together[1] | {"seconds": 0}
+
+
+def without(name: str) -> Callable[[Path], None]:
+    return lambda root: (root / name).unlink()
+
+
+def renamed(name: str, other: str) -> Callable[[Path], None]:
+    def rename(root: Path) -> None:
+        (root / name).rename(root / other)
+
+    return rename
+
+
+def emptied(name: str) -> Callable[[Path], None]:
+    def empty(root: Path) -> None:
+        rmtree(root / name)
+        (root / name).mkdir()
+
+    return empty
+
+
+YES, NO = "certificates/8_E.json", "proofs/15_K.valid.lrat"
+
+
+@pytest.mark.parametrize(
+    ("lose", "accepted", "named"),
+    [
+        pytest.param(without(YES), 173, YES, id="no file"),
+        pytest.param(renamed(YES, f"{YES}.old"), 173, YES, id="another suffix"),
+        pytest.param(renamed(YES, "certificates/8_EE.json"), 173, YES, id="another name"),
+        pytest.param(renamed(YES, "8_E.json"), 173, YES, id="another folder"),
+        pytest.param(emptied("certificates"), 0, YES, id="no certificates"),
+        pytest.param(without(NO), 173, NO, id="no proof"),
+        pytest.param(renamed(NO, f"{NO}.old"), 173, NO, id="another name for a proof"),
+        pytest.param(emptied("proofs"), 143, NO, id="no proofs"),
+        pytest.param(lambda root: rmtree(root / "proofs"), 143, NO, id="no folder of proofs"),
+    ],
+)
+def test_nothing_that_is_missing_is_passed_over(
+    everything: Path, lose: Callable[[Path], None], accepted: int, named: str
+) -> None:
+    """Neither in silence nor by a smaller number that is called a success."""
+    lose(everything)
+    code, out, err = run(everything, "check-all")
+    *lines, last = out.splitlines()
+    assert (code, err) == (1, "")
+    assert last.startswith(f"not ok: {accepted} accepted, ")
+    assert [line for line in lines if line.startswith("rejected: ") and Path(named).name in line]
+    assert [line for line in lines if line.startswith("not shown: valid: ")]
+
+
+def test_a_folder_without_certificates_is_no_root(everything: Path) -> None:
+    rmtree(everything / "certificates")
+    for command in ("check-all", "audit"):
+        assert_usage_error(run(everything, command), "has no folder certificates")
 
 
 def test_check_all_fails_for_a_theorem_alone(
