@@ -263,8 +263,8 @@ PROOFS: Hostile = PLACES | {
 
 FORMULAS: Hostile = {
     "a terabyte of zeros": (sparse(1 << 40), "larger than 268435456 bytes"),
-    "a megabyte of NUL": (holding(b"\0" * (1 << 20)), "is not an integer of at most ten"),
-    "a million digits": (holding(b"p cnf " + b"9" * 10**6), "is not an integer of at most ten"),
+    "a megabyte of NUL": (holding(b"\0" * (1 << 20)), "is not an integer of at most"),
+    "a million digits": (holding(b"p cnf " + b"9" * 10**6), "is not an integer of at most"),
     "huge counts": (holding(b"p cnf 999999999 999999999\n"), "announces 999999999 clauses"),
     "negative counts": (holding(b"p cnf -1 -1\n"), ""),
     "a million empty clauses": (holding(b"p cnf 1 1\n" + b"0 " * 10**6), "there are 1000000"),

@@ -165,45 +165,37 @@ def test_check_all_fails_for_a_theorem_alone(
     assert (code, record["ok"], record["rejected"]) == (1, False, [])
 
 
-@pytest.mark.parametrize(
-    "name",
-    [
-        *("certificates/5_B.json", "certificates/README.json", "certificates/.json"),
-        *("proofs/x.lrat", "proofs/5_B.valid.lrat", "proofs/complete.h.lrat"),
-        "proofs/5_A.valid.lrat",  # 5_A answers yes
-    ],
-)
+@pytest.mark.parametrize("name", [f"certificates/{name}.json" for name in ("5_B", "README", "")])
 def test_check_all_rejects_strays(everything: Path, name: str) -> None:
     (everything / name).touch()
     code, record = run_json(everything, "check-all")
     assert code == 1
-    fault = f"{name}: no answer rests on this file"
+    fault = f"{name}: the file is not named after a pattern"
     assert record["rejected"] == [{"pattern": name, "fault": fault}]
     assert record["patterns"] == 174
     assert all(theorem["ok"] for theorem in record["theorems"])
 
 
-@pytest.mark.parametrize("name", ["certificates/README", "proofs/5_A.valid.drat"])
+@pytest.mark.parametrize("name", ["certificates/README", "proofs/5_B.lrat"])
 def test_files_of_other_kinds_are_nobodys_concern(everything: Path, name: str) -> None:
     (everything / name).touch()
     assert run(everything, "check-all")[0] == 0
 
 
-@pytest.mark.parametrize("folder", ["certificates", "proofs"])
 def test_check_all_rejects_a_folder_that_cannot_be_listed(
-    everything: Path, folder: str, monkeypatch: pytest.MonkeyPatch
+    everything: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     list_it = Path.iterdir
 
     def refuse(path: Path) -> Iterator[Path]:
-        if path.name == folder:
+        if path.name == "certificates":
             raise PermissionError(13, "Permission denied")
         return list_it(path)
 
     monkeypatch.setattr(Path, "iterdir", refuse)
     code, record = run_json(everything, "check-all")
-    fault = f"{folder}: the folder cannot be listed: Permission denied"
-    assert (code, record["rejected"]) == (1, [{"pattern": folder, "fault": fault}])
+    fault = "certificates: the folder cannot be listed: Permission denied"
+    assert (code, record["rejected"]) == (1, [{"pattern": "certificates", "fault": fault}])
 
 
 @pytest.mark.parametrize("place", [nothing, to_itself, lambda path: path.write_text("1 0 0\n")])

@@ -3,7 +3,7 @@
 A root is a folder that holds certificates/ and proofs/. Files are named by their path below it.
 """
 
-from collections.abc import Container, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from hashlib import sha256
 from os.path import realpath
@@ -90,23 +90,18 @@ def completeness_file(letter: str) -> str:
     return f"proofs/complete.{letter}.lrat"
 
 
-def strays(root: Path, expected: Container[str]) -> dict[str, str]:
-    """Return path below the root -> what is wrong with it, for what no verdict tells of.
+def strays(root: Path, patterns: Iterable[str]) -> dict[str, str]:
+    """Return path below the root -> what is wrong with it, for what no pattern's verdict tells of.
 
-    That is a file with the suffix of its folder that is not expected, or a folder that cannot be
-    listed. What the two folders may hold besides is nobody's concern.
+    That is a certificate that is named after no pattern, or a folder that cannot be listed.
     """
-    faults = {}
-    for folder, suffix in (("certificates", ".json"), ("proofs", ".lrat")):
-        try:
-            names = sorted(f"{folder}/{path.name}" for path in (root / folder).iterdir())
-        except OSError as error:
-            faults[folder] = f"the folder cannot be listed: {error.strerror}"
-            continue
-        for name in names:
-            if name.endswith(suffix) and name not in expected:
-                faults[ascii(name)[1:-1]] = "no answer rests on this file"
-    return faults
+    expected = set(map(certificate_file, patterns))
+    try:
+        names = sorted(f"certificates/{path.name}" for path in (root / "certificates").iterdir())
+    except OSError as error:
+        return {"certificates": f"the folder cannot be listed: {error.strerror}"}
+    odd = [name for name in names if name.endswith(".json") and name not in expected]
+    return {ascii(name)[1:-1]: "the file is not named after a pattern" for name in odd}
 
 
 def digest(files: Mapping[str, str]) -> str:

@@ -14,7 +14,7 @@ from typing import NamedTuple, TypeAlias
 
 import sympy
 
-from certify.kernel.certificate import PATTERN_COUNTS, PATTERN_NAMES, QUESTIONS
+from certify.kernel.certificate import PATTERN_COUNTS, PATTERN_NAMES
 from certify.kernel.check import Completeness, Verdict, check_completeness, check_pattern
 from certify.kernel.cube import (
     TETRAHEDRON_TYPES,
@@ -50,8 +50,8 @@ class Theorem:
 class Outcome:
     """What one run found: a verdict on every certificate, and what follows from them together.
 
-    Verdicts on the patterns come first, in their order, then rejections of files on which nothing
-    rests. Completeness is empty unless the tetrahedra of every pattern were accepted.
+    Verdicts on the patterns come first, in their order, then rejections of files that are no
+    pattern's. Completeness is empty unless the tetrahedra of every pattern were accepted.
     """
 
     verdicts: tuple[Verdict, ...]
@@ -107,23 +107,9 @@ def check_all(root: Path, apply: Apply = map) -> Outcome:
     shown = theorems(verdicts, completeness)
     verdicts += [
         Verdict(place, fault=f"{place}: {fault}")
-        for place, fault in strays(root, _expected(verdicts)).items()
+        for place, fault in strays(root, PATTERN_NAMES).items()
     ]
     return Outcome(tuple(verdicts), tuple(completeness), tuple(shown))
-
-
-def _expected(verdicts: Iterable[Verdict]) -> set[str]:
-    """Return the files that belong to a root; a proof of what is answered otherwise does not."""
-    return {
-        *map(certificate_file, PATTERN_NAMES),
-        *map(completeness_file, BOUNDARY_TYPES),
-        *(
-            proof_file(verdict.pattern, question)
-            for verdict in verdicts
-            for question in QUESTIONS
-            if verdict.answers.get(question) not in ("yes", "open")
-        ),
-    }
 
 
 class Facts:
