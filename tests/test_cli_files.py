@@ -31,9 +31,7 @@ def test_hostile_file_name_is_escaped(root: Path) -> None:
     (root / "certificates" / "\x1b[2J[red]\n.json").touch()
     code, out, _ = run(root, "check-all")
     assert code == 1
-    assert (
-        r"rejected: certificates/\x1b[2J[red]\n.json: the file is not named after a pattern" in out
-    )
+    assert r"rejected: certificates/\x1b[2J[red]\n.json: the file is not named" in out
 
 
 def test_a_kernel_that_breaks_off_rejects(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
