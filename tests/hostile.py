@@ -13,6 +13,9 @@ from shutil import copy, copytree
 from stat import S_IFCHR
 from typing import Any, NamedTuple
 
+from sympy import nextprime
+
+from certify.kernel.certificate import MAX_DIGITS, QUESTIONS
 from tests.commands import CHECKOUT, five_a, to_itself, to_nothing, write
 
 YES, NO = "certificates/5_A.json", "proofs/15_A.realizable.lrat"
@@ -256,6 +259,20 @@ PROOFS: Hostile = PLACES | {
 }
 
 
+# Formulas, for a replay
+
+FORMULAS: Hostile = {
+    "a terabyte of zeros": (sparse(1 << 40), "larger than 268435456 bytes"),
+    "a megabyte of NUL": (holding(b"\0" * (1 << 20)), "is not an integer of at most"),
+    "a million digits": (holding(b"p cnf " + b"9" * 10**6), "is not an integer of at most"),
+    "huge counts": (holding(b"p cnf 999999999 999999999\n"), "announces 999999999 clauses"),
+    "negative counts": (holding(b"p cnf -1 -1\n"), ""),
+    "a million empty clauses": (holding(b"p cnf 1 1\n" + b"0 " * 10**6), "there are 1000000"),
+    "a clause without end": (holding(b"p cnf 1 1\n" + b"1 " * 10**6), "does not end with 0"),
+    "compressed": (holding(gzip.compress(b"p cnf 1 1\n")), "not ASCII text"),
+}
+
+
 # Roots with one of them, and commands
 
 
@@ -280,13 +297,32 @@ def proof_root(folder: Path, place: Place) -> Path:
 
 
 def complete_root(folder: Path, places: Iterable[Place]) -> Path:
-    """Make a root with all there is, and hostile proofs of completeness."""
-    folder.mkdir()
+    """Make a root with all there is, the first proofs of completeness hostile."""
     for name in ("certificates", "proofs"):
         copytree(CHECKOUT / name, folder / name)
-    for file, place in zip(COMPLETE, places, strict=True):
+    for file, place in zip(COMPLETE, places, strict=False):
         (folder / file).unlink()
         place(folder / file)
+    return folder
+
+
+def fraction_root(folder: Path) -> Path:
+    """Make a root in which all coordinates are as long as the format allows, and all is true.
+
+    Each is divided by a prime of its own, all of one length. That moves a point by almost nothing,
+    once all are made larger again.
+    """
+    complete_root(folder, ())
+    primes = [int(nextprime(10 ** (2 * MAX_DIGITS - 5)))]
+    while len(primes) < 24:
+        primes.append(int(nextprime(primes[-1])))
+    for path in (folder / "certificates").iterdir():
+        record = json.loads(path.read_text())
+        for question in QUESTIONS:
+            own = iter(primes)
+            for point in record[question].get("points", []):
+                point[:] = [f"{x}/{next(own)}" for x in point]
+        path.write_text(json.dumps(record))
     return folder
 
 

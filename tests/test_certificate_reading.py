@@ -13,7 +13,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from certify.kernel.certificate import QUESTIONS
+from certify.kernel.certificate import QUESTIONS, Certificate, Yes
 from certify.kernel.check import Verdict, check_pattern
 from certify.kernel.evidence import MAX_CERTIFICATE_BYTES, MAX_PROOF_BYTES
 from tests.geometry import CUBE, VERTICES, examples, is_extreme, realizes, signs_of
@@ -309,6 +309,14 @@ def test_statement_is_refused(root: Path, spoil: Spoil, reason: str) -> None:
     spoil(content)
     path_of(root, "8_E").write_text(json.dumps(content))
     assert fault(root, "8_E") == reason
+
+
+def test_the_longest_coordinate_that_ships_has_two_characters(
+    certificates: dict[str, Certificate],
+) -> None:
+    """FORMAT.md says so, to show that the limits are far away."""
+    answers = (a for c in certificates.values() for a in c.answers.values() if isinstance(a, Yes))
+    assert max(len(str(x)) for a in answers for point in a.points for x in point) == 2
 
 
 # Its proofs.

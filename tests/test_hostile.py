@@ -5,10 +5,12 @@ from pathlib import Path
 
 import pytest
 
+from certify.kernel.check import check_pattern
 from tests.commands import assert_rejects
 from tests.hostile import (
     CERTIFICATES,
     COMPLETE,
+    FORMULAS,
     NO,
     PLACES,
     PROOFS,
@@ -18,8 +20,10 @@ from tests.hostile import (
     Place,
     certificate_root,
     complete_root,
+    fraction_root,
     proof_root,
     run_all,
+    spoiled,
 )
 
 MEGABYTES = 200
@@ -100,6 +104,22 @@ def test_proof(proofs: Answers, name: str) -> None:
     assert (f"{shown}{missing}" in proofs[name]["show"].out) == unreadable
 
 
+@pytest.fixture(scope="module")
+def formulas(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Done]:
+    folder, commands = tmp_path_factory.mktemp("hostile"), []
+    (folder / "proof").write_text("1 0 2 0\n")
+    for number, (place, _) in enumerate(FORMULAS.values()):
+        place(folder / str(number))
+        commands.append(("certify", "replay", str(folder / str(number)), str(folder / "proof")))
+    return dict(zip(FORMULAS, run_all(commands), strict=True))
+
+
+@pytest.mark.parametrize("name", FORMULAS)
+def test_formula(formulas: dict[str, Done], name: str) -> None:
+    assert_rejects(formulas[name][:3], "rejected: ", FORMULAS[name][1])
+    assert formulas[name].megabytes < MEGABYTES
+
+
 SEVEN = (
     *("a pipe", "a link to the right content", "a terabyte of zeros", "a megabyte of NUL"),
     *("a megabyte of digits", "the largest number", "many empty deletions"),
@@ -116,3 +136,37 @@ def test_proofs_of_completeness(tmp_path: Path) -> None:
         for line, file, name in zip(rejected, COMPLETE, SEVEN, strict=True):
             assert line.startswith(f"rejected: {file}: ")
             assert PROOFS[name][1] in line
+
+
+# What is long, and yet as it should be
+
+
+def test_fractions_as_long_as_they_may_be(tmp_path: Path) -> None:
+    root = str(fraction_root(tmp_path / "root"))
+    commands = [("certify", "check-all"), ("certify", "show", "15_E"), ("certify.kernel",)]
+    asked = [(*command, *(["--root"] * ("kernel" not in command[0])), root) for command in commands]
+    for done in run_all(asked):
+        assert (done.code, done.err) == (0, "")
+        assert done.megabytes < MEGABYTES
+
+
+def test_a_negative_zero_is_zero(tmp_path: Path) -> None:
+    root = certificate_root(tmp_path, spoiled("[0, 0, 0]", '[-0, "-0/9", 0]'))
+    (done,) = run_all([("certify", "check", "5_A", "--root", str(root))])
+    assert (done.code, done.out) == (0, "ok: 5_A: realizable yes, convex yes, valid yes\n")
+
+
+@pytest.mark.parametrize("sign", ["", "-"])
+@pytest.mark.parametrize("denominator", [1, 39, 78])
+def test_a_fraction_has_at_most_eighty_characters(
+    tmp_path: Path, sign: str, denominator: int
+) -> None:
+    """Sign and slash are counted; a point moved by next to nothing, or far out, tells which."""
+    for length, told in ((80, False), (81, True)):
+        numerator = length - denominator - 1 - len(sign)
+        if numerator:
+            text = f"{sign}{'1' * numerator}/{'1' * denominator}"
+            assert len(text) == length
+            root = certificate_root(tmp_path / text, spoiled("[1, 0, 0]", f'[1, 0, "{text}"]'))
+            fault = check_pattern(root, "5_A").fault or ""
+            assert ("neither an integer nor a fraction" in fault) == told

@@ -156,6 +156,8 @@ def _text(path: Path) -> str:
     from certify.kernel.evidence import Malformed, read_file
 
     try:
+        if path.stat().st_size > MAX_REPLAY_BYTES:  # not read at all, then
+            raise Malformed(f"larger than {MAX_REPLAY_BYTES} bytes")
         return read_file(path, MAX_REPLAY_BYTES).decode("ascii")
     except UnicodeDecodeError:
         raise Malformed("not ASCII text; binary formats are not read") from None
