@@ -11,7 +11,7 @@ import os
 import sys
 import time
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import asdict
 from functools import partial
@@ -96,12 +96,14 @@ def try_all(
     mutants: Sequence[Mutant], sources: list[Source], results: Results, jobs: int, patience: float
 ) -> None:
     """Try mutants: first, in a process that has imported the kernel, those of functions."""
+    unchanged = next(s for s in sources if s.module == "triangulation").unchanged
     with TemporaryDirectory() as scratch:
         notes = Path(scratch) / "notes"
         child = os.fork()
         if child == 0:
             try:
-                Warm(sources, partial(try_warm, mutants, results, jobs, patience, notes)).start()
+                use = partial(try_warm, mutants, unchanged, results, jobs, patience, notes)
+                Warm(sources, use).start()
             finally:
                 os._exit(0)
         os.waitpid(child, 0)
@@ -118,11 +120,13 @@ def try_all(
     def attempt(mutant: Mutant, folder: Path) -> int:
         return Cold(mutant, costs, folder, budget(costs, patience)).start()
 
+    require_survival(unchanged, attempt)
     results.follow(in_copies(jobs, rest, attempt), len(rest), "on import")
 
 
 def try_warm(
     mutants: Sequence[Mutant],
+    unchanged: Mutant,
     results: Results,
     jobs: int,
     patience: float,
@@ -138,12 +142,20 @@ def try_warm(
     if not results.costs.exists():
         alone(measure)
     costs = read_costs(results.costs)
+    attempt = partial(plugin.try_mutant, costs, budget(costs, patience))
+    require_survival(unchanged, attempt)
     ours = ("certify", "tests", "__main__")
     modules = [name for name in sys.modules if name.partition(".")[0] not in ours]
     notes.write_text(json.dumps([sorted(plugin.early), modules]))
     late = [m for m in mutants if m.unit is not None and (m.module, m.unit) not in plugin.early]
-    attempt = partial(plugin.try_mutant, costs, budget(costs, patience))
     results.follow(in_copies(jobs, late, attempt), len(late), "when called")
+
+
+def require_survival(unchanged: Mutant, attempt: Callable[[Mutant, Path], int]) -> None:
+    """End the program if what is no mutant is killed."""
+    for _, trial in in_copies(1, [unchanged], attempt):
+        if trial.outcome != SURVIVED:
+            raise SystemExit(f"the unchanged kernel does not pass {trial.by}")
 
 
 def budget(costs: dict[str, Cost], patience: float) -> float:

@@ -21,6 +21,7 @@ from functools import _lru_cache_wrapper, partial
 from importlib.abc import InspectLoader, MetaPathFinder
 from importlib.machinery import ModuleSpec
 from importlib.util import spec_from_loader
+from itertools import zip_longest
 from pathlib import Path
 from types import CodeType, FrameType, FunctionType
 from typing import Any
@@ -35,7 +36,7 @@ CHECKOUT = Path(__file__).resolve().parents[2]
 SUITE = (
     *("hexahedron", "triangulation", "chirotope", "embedding", "jacobian", "orientations"),
     *("refutation", "validity", "completeness", "certificate_reading", "certificates"),
-    *("theorems", "cli_files", "opinions_formulas"),
+    *("theorems", "kernel_door", "cli_files", "opinions_formulas"),
 )
 """The modules of tests that ask for the kernel's verdicts in the same process."""
 
@@ -44,6 +45,7 @@ NEAR = {
     "check": ("certificates", "cli_files"),
     "cube": ("theorems",),
     "evidence": ("cli_files",),
+    "__main__": ("kernel_door",),
     "names": ("theorems",),
 }
 """Module of the kernel -> what tests it above all, where that is not the module of its name."""
@@ -85,9 +87,14 @@ def read_costs(path: Path) -> dict[str, Cost]:
     }
 
 
-def files() -> list[str]:
-    """Return the suite as arguments for pytest."""
-    return [str(CHECKOUT / "tests" / f"test_{name}.py") for name in SUITE]
+def files(suite: Iterable[str]) -> list[str]:
+    """Return modules of tests as arguments for pytest."""
+    return [str(CHECKOUT / "tests" / f"test_{name}.py") for name in suite]
+
+
+def near(mutant: Mutant) -> tuple[str, ...]:
+    """Return the modules of tests that are above all about the mutant's module."""
+    return NEAR.get(mutant.module, (mutant.module,))
 
 
 # Watching what is called.
@@ -139,7 +146,7 @@ class Watch:
 
 # Trying one mutant, in a process of its own.
 
-SURVIVED, KILLED, TIMED_OUT = 0, 1, 2
+SURVIVED, KILLED, TIMED_OUT, NOT_TRIED = 0, 1, 2, 3
 
 
 @dataclass(frozen=True)
@@ -157,15 +164,13 @@ def in_a_copy(run: Callable[[Path], int]) -> tuple[int, Path]:
     pid = os.fork()
     if pid:
         return pid, folder
-    code = KILLED
+    code = NOT_TRIED
     try:
         signal.signal(signal.SIGINT, signal.SIG_DFL)
         nowhere = os.open(os.devnull, os.O_RDWR)
         for descriptor in (0, 1, 2):
             os.dup2(nowhere, descriptor)
         code = run(folder)
-    except BaseException:
-        pass  # then the mutant is killed
     finally:
         os._exit(code)
 
@@ -181,11 +186,18 @@ def finished(folder: Path, status: int) -> Trial:
     note = folder / "test"
     by = note.read_text() if note.exists() else "collection"
     shutil.rmtree(folder, ignore_errors=True)
-    if os.WIFSIGNALED(status):
-        killers = (signal.SIGVTALRM, signal.SIGALRM, signal.SIGXCPU)
-        return Trial(TIMED_OUT if os.WTERMSIG(status) in killers else KILLED, by)
-    code = os.WEXITSTATUS(status)
-    return Trial(code, "" if code == SURVIVED else by)
+    code = os.waitstatus_to_exitcode(status)
+    outcome = {
+        SURVIVED: SURVIVED,
+        KILLED: KILLED,
+        -signal.SIGVTALRM: TIMED_OUT,
+        -signal.SIGALRM: TIMED_OUT,
+        -signal.SIGSEGV: KILLED,
+        -signal.SIGABRT: KILLED,
+    }.get(code)
+    if outcome is None:
+        raise RuntimeError(f"a process ended with {code}, not by the mutant, in {by}")
+    return Trial(outcome, "" if outcome == SURVIVED else by)
 
 
 def limit_memory() -> None:
@@ -205,7 +217,7 @@ def run_items(
 ) -> int:
     """Run tests in this order until one fails, or the cost of the next ones is too great."""
     started: set[float] = set()
-    for item, following in zip(items, [*items[1:], None], strict=True):
+    for item, following in zip_longest(items, items[1:]):
         cost = costs.get(item.nodeid, Cost(0, 0))
         expected = cost.own + (cost.shared if cost.shared not in started else 0)
         started.add(cost.shared)
@@ -214,7 +226,10 @@ def run_items(
             return SURVIVED
         (folder / "test").write_text(item.nodeid)
         limit_time(cost.own + cost.shared)
-        reports = runtestprotocol(item, log=False, nextitem=following)
+        try:
+            reports = runtestprotocol(item, log=False, nextitem=following)
+        except BaseException:  # such as KeyboardInterrupt, which no test is expected to let out
+            return KILLED
         if any(report.failed for report in reports):
             return KILLED
     return SURVIVED
@@ -230,13 +245,13 @@ def in_order(
     known come first of all.
     """
     unit = (mutant.module, mutant.unit)
-    own = {f"tests/test_{name}.py" for name in NEAR.get(mutant.module, (mutant.module,))}
+    own = {f"tests/test_{name}.py" for name in near(mutant)}
 
     def key(item: pytest.Item) -> tuple[bool, float, float]:
         cost = costs.get(item.nodeid, Cost(0, 0))
-        near = unit in cost.units if mutant.unit else item.nodeid.partition("::")[0] in own
-        near = near or item.nodeid not in costs
-        return not near, cost.shared if near else -cost.shared, cost.own
+        first = unit in cost.units if mutant.unit else item.nodeid.partition("::")[0] in own
+        first = first or item.nodeid not in costs
+        return not first, cost.shared if first else -cost.shared, cost.own
 
     return sorted(items, key=key)
 
@@ -278,7 +293,7 @@ class Measure:
         """Return the cost of each test; raise RuntimeError if one fails."""
         measured = {}
         caches = [thing for thing in gc.get_objects() if isinstance(thing, _lru_cache_wrapper)]
-        for item, following in zip(items, [*items[1:], None], strict=True):
+        for item, following in zip_longest(items, items[1:]):
             for cache in caches:  # so that each test calls what it needs
                 if cache.__wrapped__.__module__.startswith(("certify.", "tests.")):
                     cache.cache_clear()
@@ -313,7 +328,7 @@ class Warm:
 
     def start(self) -> None:
         self._watch.start()
-        pytest.main([*ARGUMENTS, *files()], plugins=[self, self._measure])
+        pytest.main([*ARGUMENTS, *files(SUITE)], plugins=[self, self._measure])
 
     def pytest_runtestloop(self, session: pytest.Session) -> bool:
         self._watch.stop()
@@ -394,13 +409,18 @@ class Cold(MetaPathFinder, InspectLoader):
         limit_memory()
         limit_time(20)
         sys.meta_path.insert(0, self)
-        pytest.main([*ARGUMENTS, *files()], plugins=[self])
+        for suite in (near(self._mutant), SUITE):  # to collect few tests takes less time
+            self._outcome = KILLED
+            pytest.main([*ARGUMENTS, *files(suite)], plugins=[self])
+            if self._outcome != SURVIVED:
+                break
         return self._outcome
 
     def pytest_runtestloop(self, session: pytest.Session) -> bool:
         use_folder(session, self._folder)
         if session.testsfailed:
             return True
+        self._outcome = NOT_TRIED  # unless all below goes well
         items = in_order(session.items, self._mutant, self._costs)
         self._outcome = run_items(items, self._folder, self._costs, self._patience)
         return True
