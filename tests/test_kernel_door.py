@@ -101,7 +101,8 @@ def test_usage(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     assert door.main(arguments) == code
-    assert capsys.readouterr().out.startswith("usage: python -m certify.kernel [ROOT], with a ")
+    usage = "usage: python -m certify.kernel [ROOT], with a folder ROOT/certificates\n"
+    assert capsys.readouterr().out == usage
 
 
 def test_two_roots_are_a_usage_error(shipped: Path) -> None:

@@ -10,7 +10,7 @@ import json
 import os
 import sys
 import time
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import asdict
@@ -57,6 +57,7 @@ class Results:
         kernel = sha256("".join(self._digests.values()).encode()).hexdigest()
         self.costs = folder / f"costs-{kernel[:16]}.json"
         self.trials: dict[str, Trial] = {}
+        self._killers: defaultdict[tuple[str, int | None], dict[str, None]] = defaultdict(dict)
         self.load()
 
     def load(self) -> None:
@@ -74,8 +75,16 @@ class Results:
     def add(self, mutant: Mutant, trial: Trial) -> None:
         self.trials[mutant.key] = trial
         record = {"mutant": mutant.key, "source": self._digests[mutant.module], **asdict(trial)}
+        if trial.outcome != SURVIVED:
+            killers = self._killers[mutant.module, mutant.unit]
+            killers.pop(trial.by, None)
+            killers[trial.by] = None
         with self._path.open("a") as file:
             file.write(json.dumps(record) + "\n")
+
+    def killers(self, mutant: Mutant) -> list[str]:
+        """Return the tests that killed mutants of the same function, the last one first."""
+        return [*reversed(self._killers[mutant.module, mutant.unit])]
 
     def follow(self, trials: Iterator[tuple[Mutant, Trial]], total: int, what: str) -> None:
         """Keep what comes, and show a live line with the rate."""
@@ -118,7 +127,7 @@ def try_all(
     rest = [m for m in mutants if m.unit is None or [m.module, m.unit] in early]
 
     def attempt(mutant: Mutant, folder: Path) -> int:
-        return Cold(mutant, costs, folder, budget(costs, patience)).start()
+        return Cold(costs, budget(costs, patience), results.killers, mutant, folder).start()
 
     require_survival(unchanged, attempt)
     results.follow(in_copies(jobs, rest, attempt), len(rest), "on import")
@@ -142,7 +151,7 @@ def try_warm(
     if not results.costs.exists():
         alone(measure)
     costs = read_costs(results.costs)
-    attempt = partial(plugin.try_mutant, costs, budget(costs, patience))
+    attempt = partial(plugin.try_mutant, costs, budget(costs, patience), results.killers)
     require_survival(unchanged, attempt)
     ours = ("certify", "tests", "__main__")
     modules = [name for name in sys.modules if name.partition(".")[0] not in ours]

@@ -258,7 +258,7 @@ def _constant(node: ast.Constant) -> Iterator[Change]:
         for other in (value + 1, value - 1):
             yield f"{value} becomes {other}", ast.Constant(other)
     elif isinstance(value, str):
-        yield f"{value[:20]!a} becomes another text", ast.Constant(value + "#")
+        yield f"{value[:20]!a} becomes another text", ast.Constant(value + "x")
         if value:
             yield f"{value[:20]!a} becomes empty", ast.Constant("")
 

@@ -22,6 +22,7 @@ from importlib.abc import InspectLoader, MetaPathFinder
 from importlib.machinery import ModuleSpec
 from importlib.util import spec_from_loader
 from itertools import zip_longest
+from math import inf
 from pathlib import Path
 from types import CodeType, FrameType, FunctionType
 from typing import Any
@@ -52,7 +53,7 @@ NEAR = {
 
 ARGUMENTS = [
     *("-o", "addopts=", "-m", "not slow", "-qq", "-s", "--strict-markers"),
-    *("-p", "no:cacheprovider", "-p", "no:xdist"),
+    *("-p", "no:cacheprovider", "-p", "no:xdist", "--tb=native"),
 ]
 
 MEMORY = 1 << 30
@@ -236,22 +237,24 @@ def run_items(
 
 
 def in_order(
-    items: Iterable[pytest.Item], mutant: Mutant, costs: dict[str, Cost]
+    items: Iterable[pytest.Item], mutant: Mutant, costs: dict[str, Cost], killers: list[str]
 ) -> list[pytest.Item]:
     """Return the tests that may notice a mutant, those that soon will first.
 
     For a function first those that call it, for what is run on import those of its module; then
     those that ask for all verdicts, for which they share a fixture. New ones of which nothing is
-    known come first of all.
+    known come first of all, but for the killers of other mutants of the function.
     """
+    places = {test: place for place, test in enumerate(killers)}
     unit = (mutant.module, mutant.unit)
     own = {f"tests/test_{name}.py" for name in near(mutant)}
 
-    def key(item: pytest.Item) -> tuple[bool, float, float]:
+    def key(item: pytest.Item) -> tuple[float, bool, float, float]:
         cost = costs.get(item.nodeid, Cost(0, 0))
         first = unit in cost.units if mutant.unit else item.nodeid.partition("::")[0] in own
         first = first or item.nodeid not in costs
-        return not first, cost.shared if first else -cost.shared, cost.own
+        shared = cost.shared if first else -cost.shared
+        return places.get(item.nodeid, inf), not first, shared, cost.own
 
     return sorted(items, key=key)
 
@@ -289,14 +292,14 @@ class Measure:
             self._fixtures[where] = Cost(0, spent, self._watch.called)
             self._watch.called = before | self._watch.called
 
-    def run(self, items: Sequence[pytest.Item]) -> dict[str, Cost]:
-        """Return the cost of each test; raise RuntimeError if one fails."""
+    def run(
+        self, items: Sequence[pytest.Item], caches: Sequence["_lru_cache_wrapper[Any]"]
+    ) -> dict[str, Cost]:
+        """Return the cost of each test with empty caches; raise RuntimeError if one fails."""
         measured = {}
-        caches = [thing for thing in gc.get_objects() if isinstance(thing, _lru_cache_wrapper)]
         for item, following in zip_longest(items, items[1:]):
             for cache in caches:  # so that each test calls what it needs
-                if cache.__wrapped__.__module__.startswith(("certify.", "tests.")):
-                    cache.cache_clear()
+                cache.cache_clear()
             self._watch.called = set()
             self._shared, start = 0.0, time.process_time()
             reports = runtestprotocol(item, log=False, nextitem=following)
@@ -334,21 +337,34 @@ class Warm:
         self._watch.stop()
         self.early = self._watch.called
         self._session = session
+        everything = gc.get_objects()
         self._functions = [
             thing
-            for thing in gc.get_objects()
+            for thing in everything
             if isinstance(thing, FunctionType) and self._watch.unit(thing.__code__)
         ]
+        self._caches = [
+            thing
+            for thing in everything
+            if isinstance(thing, _lru_cache_wrapper)
+            and thing.__wrapped__.__module__.startswith(("certify.", "tests."))
+        ]
+        gc.freeze()  # so that a copy need not copy what is never changed
         self._use(self)
         return True
 
     def measure(self) -> dict[str, Cost]:
         """Return what each test costs and calls with the unchanged kernel."""
         self._watch.instrument(self._functions)
-        return self._measure.run(self._session.items)
+        return self._measure.run(self._session.items, self._caches)
 
     def try_mutant(
-        self, costs: dict[str, Cost], patience: float, mutant: Mutant, folder: Path
+        self,
+        costs: dict[str, Cost],
+        patience: float,
+        killers: Callable[[Mutant], list[str]],
+        mutant: Mutant,
+        folder: Path,
     ) -> int:
         """Put the mutant in place of the function, and run the tests that call it."""
         limit_memory()
@@ -363,7 +379,8 @@ class Warm:
             for item in self._session.items
             if item.nodeid not in costs or unit in costs[item.nodeid].units
         ]
-        return run_items(in_order(items, mutant, costs), folder, costs, patience)
+        items = in_order(items, mutant, costs, killers(mutant))
+        return run_items(items, folder, costs, patience)
 
 
 def parts(code: CodeType) -> Iterator[CodeType]:
@@ -382,11 +399,17 @@ class Cold(MetaPathFinder, InspectLoader):
     """Plugin, and finder of one mutated module."""
 
     def __init__(
-        self, mutant: Mutant, costs: dict[str, Cost], folder: Path, patience: float
+        self,
+        costs: dict[str, Cost],
+        patience: float,
+        killers: Callable[[Mutant], list[str]],
+        mutant: Mutant,
+        folder: Path,
     ) -> None:
         self._mutant = mutant
         self._name = f"certify.kernel.{mutant.module}"
         self._costs = costs
+        self._killers = killers(mutant)
         self._folder = folder
         self._patience = patience
         self._outcome = KILLED
@@ -421,7 +444,7 @@ class Cold(MetaPathFinder, InspectLoader):
         if session.testsfailed:
             return True
         self._outcome = NOT_TRIED  # unless all below goes well
-        items = in_order(session.items, self._mutant, self._costs)
+        items = in_order(session.items, self._mutant, self._costs, self._killers)
         self._outcome = run_items(items, self._folder, self._costs, self._patience)
         return True
 
