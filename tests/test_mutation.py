@@ -38,6 +38,8 @@ def changes(folder: Path, text: str) -> list[str]:
     ("text", "expected"),
     [
         ("x < y", ["< becomes <=", "< becomes >="]),
+        ("x == y", ["== becomes !=", "== becomes <=", "== becomes >="]),
+        ("x != 'a'", ["!= becomes ==", "'a' becomes another text", "'a' becomes empty"]),
         (
             "w <= x is y",
             [

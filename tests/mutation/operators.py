@@ -214,16 +214,22 @@ ARITHMETIC: dict[type[ast.operator], tuple[str, tuple[type[ast.operator], ...]]]
 FUNCTIONS = {"min": "max", "max": "min", "any": "all", "all": "any", "sorted": "list"}
 
 
+def _is_a_text(node: ast.expr) -> bool:
+    return isinstance(node, ast.Constant) and isinstance(node.value, str)
+
+
 def _comparison(node: ast.Compare) -> Iterator[Change]:
+    everything = [node.left, *node.comparators]
     for i, op in enumerate(node.ops):
         old, others = COMPARISONS[type(op)]
+        if isinstance(op, ast.Eq | ast.NotEq) and any(map(_is_a_text, everything[i : i + 2])):
+            others = others[:1]  # nothing is decided by an order of the alphabet
         for other in others:
             ops = [*node.ops]
             ops[i] = other()
             words = f"{old}{_nth(i, ops)} becomes {COMPARISONS[other][0]}"
             yield words, _with(node, ops=ops)
     if len(node.ops) > 1:
-        everything = [node.left, *node.comparators]
         for i, end in ((0, "first"), (len(everything) - 1, "last")):
             left, *rest = _without(everything, i)
             ops = _without(node.ops, min(i, len(node.ops) - 1))
