@@ -13,10 +13,20 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from certify.kernel.certificate import QUESTIONS, Certificate, Yes
+from certify.kernel.certificate import QUESTIONS, Certificate, No, Open, Yes, read_certificate
 from certify.kernel.check import Verdict, check_pattern
 from certify.kernel.evidence import MAX_CERTIFICATE_BYTES, MAX_PROOF_BYTES
-from tests.geometry import CUBE, VERTICES, examples, is_extreme, realizes, signs_of
+from certify.kernel.refutation import FinalPolynomial
+from tests.geometry import (
+    CUBE,
+    QUADRUPLES,
+    VERTICES,
+    exact,
+    examples,
+    is_extreme,
+    realizes,
+    signs_of,
+)
 from tests.test_schema import Document, Spoil, document, drop, put
 
 YES, NO = "5_A", "15_A"
@@ -205,7 +215,7 @@ INEQUALITY = (*POLYNOMIAL, "inequalities", 0)
 NO_COORDINATES: list[object] = [
     *("1/0", "1/00", "1.5", "01/2", "1/02", "1/-2", "+1/2", "--1/2", " 1/2", "1/2\n", "1 /2"),
     *("1/2/3", "1", "", "a/b", "1_0/3", "\u0661/\u0662", "\uff11/2", "\u00bd"),
-    *(None, True, [], {}, "1" * 40 + "/" + "1" * 99),
+    *(None, True, [], {}, "1" * 40 + "/" + "1" * 40, "1" * 40 + "/" + "1" * 99),
 ]
 
 STATEMENTS: list[tuple[Spoil, str]] = [
@@ -296,6 +306,7 @@ STATEMENTS: list[tuple[Spoil, str]] = [
     (put(*INEQUALITY, 1, value=[1, 2, 3, 4, 5]), f"valid: {SIX}"),
     (put(*INEQUALITY, 1, value=[1, 2, 3, 4, 5, 5]), f"valid: {SIX}"),
     (put(*INEQUALITY, 1, value=[1, 2, 3, 4, 5, 6, 7]), f"valid: {SIX}"),
+    (put(*INEQUALITY, 1, value=[1, 2, 3, 4, 5, 6, 6]), f"valid: {SIX}"),
     (put(*INEQUALITY, 1, value=[0, 2, 3, 4, 5, 6]), f"valid: {SIX}"),
     (put(*INEQUALITY, 1, value=[1, 2, 3, 4, 5, 9]), f"valid: {SIX}"),
     (put(*INEQUALITY, 1, 0, value="1"), f"valid: {VERTEX}"),
@@ -317,6 +328,37 @@ def test_the_longest_coordinate_that_ships_has_two_characters(
     """FORMAT.md says so, to show that the limits are far away."""
     answers = (a for c in certificates.values() for a in c.answers.values() if isinstance(a, Yes))
     assert max(len(str(x)) for a in answers for point in a.points for x in point) == 2
+
+
+def test_what_is_well_formed_is_read() -> None:
+    """Up to the limits of the format, and no answer is taken for another."""
+    content = document()
+    longest = ["1" * 40 + "/" + "3" * 39, -(10**38), 10**39]
+    content["realizable"]["points"][1] = longest
+    content["tetrahedra"] = list(QUADRUPLES)
+    found = read_certificate("8_E", json.dumps(content).encode())
+    places: list[list[int | Fraction]] = [[i, -i, Fraction(-i, 7)] for i in range(8)]
+    places[1] = [Fraction(int("1" * 40), int("3" * 39)), -(10**38), 10**39]
+    assert found == Certificate(
+        pattern="8_E",
+        boundary="d",
+        instances=48,
+        tetrahedra=QUADRUPLES,
+        answers={
+            "realizable": Yes(exact(places)),
+            "convex": Open(),
+            "valid": No(
+                "proofs/8_E.valid.lrat",
+                "0" * 64,
+                (
+                    FinalPolynomial(
+                        {(1, 2, 3, 4): 1, (1, 2, 3, 5): -1, (5, 6, 7, 8): 0},
+                        ((2, (1, 2, 3, 4, 5, 6)), (1, (8, 7, 6, 5, 4, 3))),
+                    ),
+                ),
+            ),
+        },
+    )
 
 
 # Its proofs.

@@ -104,6 +104,18 @@ def test_two_tetrahedra_placed_by_hand(
     assert is_realized(placement, {t: signs[t] for t in pair}) is proper
 
 
+@pytest.mark.parametrize("sign", [1, -1])
+def test_a_single_tetrahedron_has_its_sign(sign: int) -> None:
+    placement = (*BIG, *[(0, 0, 0)] * 4)
+    turned = placement if sign == 1 else (*BIG[:2], BIG[3], BIG[2], *placement[4:])
+    signs = chirotope(exact(turned))
+    require_realization({(1, 2, 3, 4): sign}, signs)
+    with pytest.raises(NotRealized, match="1234 is inverted"):
+        require_realization({(1, 2, 3, 4): -sign}, signs)
+    with pytest.raises(NotRealized, match="1235 is degenerate"):
+        require_realization({(1, 2, 3, 5): sign}, signs)
+
+
 PAIRS = {
     shared: [
         (s, t) for s, t in combinations(QUADRUPLES, 2) if len(set(s).intersection(t)) == shared

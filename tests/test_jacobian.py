@@ -131,6 +131,16 @@ def test_verdict(points: Sequence[Point], outcome: int | str) -> None:
     assert verdict(points) == outcome
 
 
+@pytest.mark.parametrize(
+    "points",
+    [exact(CUBE[1:]), exact([*CUBE, CUBE[0]]), exact([CUBE[0][:2], *CUBE[1:]])],
+    ids=["seven points", "nine points", "a point of the plane"],
+)
+def test_other_than_eight_points_of_space_are_an_error(points: Sequence[Point]) -> None:
+    with pytest.raises(ValueError, match=r"zip\(\)"):
+        require_positive_jacobian(points)
+
+
 @examples(100)
 @given(SMALL, SMALL, SMALL, SMALL)
 def test_verdict_on_twisted_cubes_is_that_of_a_quadratic(a: int, b: int, c: int, d: int) -> None:
