@@ -26,7 +26,7 @@ from certify.opinions.second import Opinion
 RECORDS = {
     "forgeries": "certify attack --seed 1 --count 200000 --jobs 2",
     "fuzzing": "python -m tests.fuzz",
-    "mutants": "python -m tests.mutation --jobs 2",
+    "mutants": "python -m tests.mutation --jobs 2 --record",
 }
 """What is on record -> the command that finds it again."""
 

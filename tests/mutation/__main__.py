@@ -35,7 +35,7 @@ from tests.mutation.session import (
     read_costs,
     write_costs,
 )
-from tests.mutation.survivors import SCORE, all_sources, listed
+from tests.mutation.survivors import RECORD, all_sources, listed
 
 PATIENCE = 0.1
 """What the tests that a mutant has to survive may cost, as a share of the whole suite."""
@@ -184,7 +184,7 @@ def parse() -> argparse.Namespace:
     parser.add_argument(
         "--results", type=Path, metavar="FOLDER", help="keep them, and go on from there"
     )
-    parser.add_argument("--record", action="store_true", help="write the score into score.json")
+    parser.add_argument("--record", action="store_true", help="keep the score for certify trust")
     return parser.parse_args()
 
 
@@ -212,10 +212,12 @@ def score(sources: Iterable[Source], results: Results) -> dict[str, object]:
     outcomes = Counter(results.outcome(mutant) for mutant in mutants)
     return {
         "kernel_sha256": kernel_digest(),
-        "mutants": len(mutants),
-        "killed": outcomes[KILLED],
-        "timed_out": outcomes[TIMED_OUT],
-        "survived": outcomes[SURVIVED],
+        "figures": {
+            "mutants": len(mutants),
+            "killed by a test": outcomes[KILLED],
+            "killed by the limit of time": outcomes[TIMED_OUT],
+            "survived, each with its reason": outcomes[SURVIVED],
+        },
     }
 
 
@@ -250,7 +252,7 @@ def main() -> int:
     of_all = [mutant for source in sources for mutant in source.mutants]
     code = report(of_all if whole else mutants, results)
     if options.record and whole and code == 0:
-        SCORE.write_text(json.dumps(score(sources, results), indent=2) + "\n", encoding="utf-8")
+        RECORD.write_text(json.dumps(score(sources, results), indent=2) + "\n", encoding="utf-8")
     return code
 
 

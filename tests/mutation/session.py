@@ -15,6 +15,7 @@ import signal
 import sys
 import tempfile
 import time
+from collections import Counter
 from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import _lru_cache_wrapper, partial
@@ -43,9 +44,9 @@ SUITE = (
 
 NEAR = {
     "certificate": ("certificate_reading",),
-    "check": ("certificates", "cli_files"),
+    "check": ("certificates", "certificate_reading", "theorems"),
     "cube": ("theorems",),
-    "evidence": ("cli_files",),
+    "evidence": ("cli_files", "certificate_reading"),
     "__main__": ("kernel_door",),
     "names": ("theorems",),
 }
@@ -242,10 +243,12 @@ def in_order(
     """Return the tests that may notice a mutant, those that soon will first.
 
     First come the killers of other mutants of the function; then new tests, of which nothing is
-    known; then those of the module that call the function, quick ones first; then others that call
-    it. Where it is not known what calls it, the tests of the module are followed by those that ask
-    for all verdicts, for which they share a fixture.
+    known; then those of the module that call the function, then others that call it. Quick ones
+    come first, and of those that differ in their parameters alone not too many at a time. Where it
+    is not known what calls it, the tests of the module are followed by those that ask for all
+    verdicts, for which they share a fixture.
     """
+    alike: Counter[str] = Counter()
     places = {test: place for place, test in enumerate(killers)}
     unit = (mutant.module, mutant.unit)
     own = {f"tests/test_{name}.py" for name in near(mutant)}
@@ -258,7 +261,9 @@ def in_order(
         # About ten tests share what they share.
         share = cost.own + cost.shared / 10 if calls else cost.own - cost.shared
         place = places.get(item.nodeid, inf)
-        return place, known and not calls, known and not of_module, share
+        function = item.nodeid.partition("[")[0]
+        alike[function] += 1
+        return place, known and not calls, known and not of_module, share * alike[function]
 
     return sorted(items, key=key)
 

@@ -5,18 +5,18 @@ from pathlib import Path
 
 from tests.mutation.operators import Source
 
-KERNEL = Path(__file__).resolve().parents[2] / "certify" / "kernel"
+CERTIFY = Path(__file__).resolve().parents[2] / "certify"
 
 SURVIVORS = Path(__file__).with_name("survivors.toml")
 """Groups of survivors, each with its reason."""
 
-SCORE = Path(__file__).with_name("score.json")
-"""What the last whole run found, and the SHA-256 of the kernel it was about."""
+RECORD = CERTIFY / "opinions" / "measured" / "mutants.json"
+"""What the last whole run found, for ``certify trust``."""
 
 
 def all_sources() -> list[Source]:
     """Return the modules of the kernel, in the order of their names."""
-    return [Source(path) for path in sorted(KERNEL.glob("*.py"))]
+    return [Source(path) for path in sorted((CERTIFY / "kernel").glob("*.py"))]
 
 
 def listed() -> dict[str, str]:
