@@ -382,6 +382,11 @@ PROOFS: dict[str, tuple[Arrange, str]] = {
         lambda path: path.write_bytes(path.read_bytes() + b"\n"),
         f"the SHA-256 of {PROOF} is not the one that the certificate states",
     ),
+    "with other ends of lines": (
+        lambda path: path.write_bytes(path.read_bytes().replace(b"\n", b"\r\n")),
+        f"the SHA-256 of {PROOF} is not the one that the certificate states; "
+        "its line ends were converted",
+    ),
     "empty": (
         lambda path: path.write_bytes(b""),
         f"the SHA-256 of {PROOF} is not the one that the certificate states",
@@ -396,7 +401,7 @@ PROOFS: dict[str, tuple[Arrange, str]] = {
 @pytest.mark.parametrize(("arrange", "reason"), PROOFS.values(), ids=PROOFS)
 def test_proof_is_refused(root: Path, arrange: Arrange, reason: str) -> None:
     arrange(root / PROOF)
-    assert fault(root, NO).split("; ")[0] == f"realizable: {reason}"
+    assert fault(root, NO).split("; convex: ")[0] == f"realizable: {reason}"
 
 
 def test_a_root_may_be_a_link(root: Path, tmp_path_factory: pytest.TempPathFactory) -> None:

@@ -37,16 +37,16 @@ CHECKOUT = Path(__file__).resolve().parents[2]
 
 SUITE = (
     *("hexahedron", "triangulation", "chirotope", "embedding", "jacobian", "orientations"),
-    *("refutation", "validity", "completeness", "certificate_reading", "certificates"),
-    *("theorems", "kernel_door", "cli_files", "opinions_formulas"),
+    *("refutation", "validity", "completeness", "evidence", "certificate_reading", "check"),
+    *("certificates", "theorems", "kernel_door", "cli_files", "opinions_formulas"),
 )
 """The modules of tests that ask for the kernel's verdicts in the same process."""
 
 NEAR = {
     "certificate": ("certificate_reading",),
-    "check": ("certificates", "certificate_reading", "theorems"),
+    "check": ("check", "certificates", "certificate_reading"),
     "cube": ("theorems",),
-    "evidence": ("cli_files", "certificate_reading"),
+    "evidence": ("evidence", "certificate_reading"),
     "__main__": ("kernel_door",),
     "names": ("theorems",),
 }
