@@ -227,6 +227,8 @@ def test_reason(proof: str, why: str) -> None:
         "5 2 d 0 1 2 0",
         "c a comment",
         "5 " + "9" * 5000 + " 0 1 2 0",
+        "5 0 -1 x 0",
+        "5 0 -1 2 0 c",
     ],
 )
 def test_malformed_line(step: str) -> None:
@@ -387,6 +389,14 @@ def test_one_inequality_must_be_strict() -> None:
     (_, smaller, rest) = brackets(SIX)
     signs = {unordered(v): 1 for v in (*brackets(SIX)[0], *smaller)} | {unordered(rest[0]): 0}
     assert refusal(polynomial(signs, [SIX, SWAPPED])) == NO_CONTRADICTION
+
+
+@pytest.mark.parametrize("strict", INEQUALITIES)
+def test_one_strict_inequality_is_enough(strict: Six) -> None:
+    """Whatever the sign of its rest: both occur."""
+    zeros = {unordered(brackets(six)[2][0]): 0 for six in INEQUALITIES if six != strict}
+    signs = {q: SIGNS[q] for q in NEEDED} | zeros
+    assert refusal(polynomial(signs, INEQUALITIES)) is None
 
 
 @pytest.mark.parametrize("quadruple", sorted(NEEDED))

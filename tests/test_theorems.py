@@ -1,11 +1,13 @@
 """Theorems are shown by all they rest on together; what they state is counted again."""
 
 import json
+import platform
 import re
 from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
+from hashlib import sha256
 from itertools import combinations, product
 from pathlib import Path
 from random import Random
@@ -13,13 +15,20 @@ from shutil import copytree
 from typing import Any
 
 import pytest
+import sympy
 
 from certify.kernel.certificate import PATTERN_NAMES, QUESTIONS
 from certify.kernel.check import Completeness, Verdict
 from certify.kernel.cube import TETRAHEDRON_TYPES, triangulates_cube
-from certify.kernel.evidence import certificate_file, completeness_file, proof_file
+from certify.kernel.evidence import (
+    certificate_file,
+    completeness_file,
+    digest,
+    kernel_digest,
+    proof_file,
+)
 from certify.kernel.names import LETTERS
-from certify.kernel.theorems import Theorem, check_all, theorems
+from certify.kernel.theorems import Outcome, Theorem, check_all, theorems
 from certify.kernel.triangulation import orientation
 from tests.geometry import (
     CUBE,
@@ -190,6 +199,21 @@ def test_completeness_counts_only_for_what_it_lists(
     foreign = ((1, 2, 3, 4),)
     wider = replace(own, listed=own.listed | {foreign})
     assert shown(verdicts, [*others, wider]) == set(OF_THE_TEMPLATE)
+    known = frozenset[Any]().union(*(verdict.instances for verdict in verdicts.values()))
+    assert shown(verdicts, [*others, replace(own, listed=known)]) == set(ALL)
+
+
+def test_completeness_does_not_make_up_for_a_pattern(
+    verdicts: Verdicts, completeness: list[Completeness]
+) -> None:
+    """All that is listed is known, but not as the classes of the 174 patterns, each by itself."""
+    both = verdicts["5_A"].instances | verdicts["15_K"].instances
+    wide = verdicts | {"5_A": replace(verdicts["5_A"], instances=both)}
+    missing = {name: verdict for name, verdict in wide.items() if name != "15_K"}
+    twice = wide | {"15_K": replace(verdicts["15_K"], instances=frozenset((min(both),)))}
+    foreign = replace(verdicts["15_K"], pattern="15_L", instances=frozenset((((1, 2, 3, 4),),)))
+    for spoiled in (missing, twice, verdicts | {"15_L": foreign}):
+        assert shown(spoiled, completeness) == set(OF_THE_TEMPLATE)
 
 
 def answering(verdicts: Verdicts, name: str, question: str, answer: str) -> Verdicts:
@@ -251,6 +275,159 @@ def test_no_two_patterns_can_exchange_their_names(
     still = shown(verdicts | exchanged, completeness)
     assert "names" not in still
     assert still >= {*OF_THE_TEMPLATE, *OF_THE_LIST}
+
+
+# What they count, if it were other than it is. Where all is complete and the classes are different,
+# their numbers can change only if some triangulations are in two of them.
+
+
+def with_more(verdicts: Verdicts, more: dict[str, int]) -> Verdicts:
+    """Return the verdicts with so many instances more, by name: those that others lose, or have."""
+    changed = dict(verdicts)
+    others = sorted({i for verdict in verdicts.values() for i in verdict.instances})
+    for name, number in sorted(more.items(), key=lambda item: item[1]):
+        own = sorted(verdicts[name].instances)
+        others += own[number:] if number < 0 else []
+        own = own[:number] if number < 0 else own + [others.pop() for _ in range(number)]
+        changed[name] = replace(verdicts[name], instances=frozenset(own))
+    return changed
+
+
+@pytest.mark.parametrize(
+    ("theorem", "more"),
+    [
+        pytest.param("instances", {"5_A": 1, "8_A": -1}, id="3 and 47, not 2"),
+        pytest.param("instances", {"8_A": 1, "8_B": -1}, id="47 and 49 as well"),
+        pytest.param("instances", {"11_E": -8, "12_AD": 8}, id="8 and 24, not 16"),
+        pytest.param("instances", {"6_A": 24}, id="48 for 24: too many"),
+        pytest.param("instances", {"6_A": 24, "8_A": -24, "8_B": -24}, id="24 for 48: too few"),
+        pytest.param("cube", {"6_A": 24}, id="a large class"),
+        pytest.param("cube", {"8_A": 24, "6_A": -12}, id="a small class"),
+    ],
+)
+def test_other_numbers_of_instances(
+    verdicts: Verdicts, completeness: list[Completeness], theorem: str, more: dict[str, int]
+) -> None:
+    still = shown(with_more(verdicts, more), completeness)
+    assert theorem not in still
+    assert "patterns" in still
+
+
+@pytest.mark.parametrize(
+    ("theorem", "answers"),
+    [
+        ("realizable", ["5_A realizable no"]),
+        ("realizable", ["15_A realizable yes"]),
+        ("realizable-sizes", ["5_A realizable no"]),
+        ("realizable-sizes", ["15_A realizable yes"]),
+        ("convex", ["5_A realizable no", "5_A convex no"]),
+        ("convex", ["12_U realizable no"]),
+        ("convex", ["15_A realizable yes"]),
+        ("convex", ["15_A convex yes"]),
+        ("valid", ["5_A valid no"]),
+        ("valid", ["15_A valid yes"]),
+        ("not-valid", ["5_A valid no"]),
+        ("not-valid", ["11_AD valid yes"]),
+        ("not-valid", ["12_U valid yes"]),
+        ("not-valid", ["15_A valid yes"]),
+        ("not-valid", ["15_A valid yes", "15_A realizable yes"]),
+        ("valid-sizes", ["5_A valid no"]),
+        ("valid-sizes", ["11_AD valid yes"]),
+        ("valid-sizes", ["15_C valid no"]),
+        ("valid-sizes", ["15_K valid yes"]),
+    ],
+)
+def test_other_numbers_of_answers(
+    verdicts: Verdicts, completeness: list[Completeness], theorem: str, answers: list[str]
+) -> None:
+    for other in answers:
+        name, question, answer = other.split()
+        verdicts = answering(verdicts, name, question, answer)
+    still = shown(verdicts, completeness)
+    assert theorem not in still
+    assert "patterns" in still
+
+
+def taken_for(verdicts: Verdicts, name: str, other: str) -> Verdicts:
+    """Return the verdicts with instances of another pattern as those of a pattern.
+
+    Its own ones are added to the class that has the least of all.
+    """
+    least = {pattern: min(verdict.instances) for pattern, verdict in verdicts.items()}
+    first = min(least, key=least.__getitem__)
+    foreign = verdicts[other].instances - set(least.values())
+    letter = verdicts[other].boundary
+    everything = verdicts[first].instances | verdicts[name].instances
+    return verdicts | {
+        first: replace(verdicts[first], instances=everything),
+        name: replace(verdicts[name], instances=foreign, boundary=letter),
+    }
+
+
+@pytest.mark.parametrize(
+    ("theorem", "taken"),
+    [
+        pytest.param("cube", {"6_A": "8_A"}, id="five of the cube"),
+        pytest.param("cube", {"8_A": "6_A"}, id="seven of the cube"),
+        pytest.param("finite-precision-cube", {"7_B": "8_A"}, id="three with slivers"),
+        pytest.param("finite-precision-cube", {"8_A": "7_B"}, id="five with slivers"),
+        pytest.param("ten", {"8_A": "7_B"}, id="eleven"),
+        pytest.param("ten", {"7_B": "8_A"}, id="nine"),
+        pytest.param("ten", {"8_A": "7_B", "5_A": "9_A"}, id="ten, but not 5_A"),
+        pytest.param("ten", {"8_A": "7_B", "6_A": "9_A"}, id="ten, but not 6_A"),
+        pytest.param("ten", {"8_A": "7_B", "7_C": "9_A"}, id="ten, but not 7_C"),
+        pytest.param("ten", {"7_A": "7_B", "7_C": "9_A"}, id="ten, but 7_A"),
+    ],
+)
+def test_other_triangulations_of_the_cube(
+    verdicts: Verdicts, completeness: list[Completeness], theorem: str, taken: dict[str, str]
+) -> None:
+    spoiled = verdicts
+    for name, other in taken.items():
+        spoiled = taken_for(spoiled, name, other)
+    still = shown(spoiled, completeness)
+    assert theorem not in still
+    assert "patterns" in still
+
+
+# What a run says of all this.
+
+
+def test_a_run_in_which_all_is_shown(shipped: Path, outcome: Outcome) -> None:
+    names = [*CERTIFICATES, *COMPLETENESS]
+    names += [v.certificate.answers[q].proof for v, q in refuted(outcome)]  # type: ignore[union-attr]
+    files = {name: sha256((shipped / name).read_bytes()).hexdigest() for name in names}
+    assert (outcome.ok, outcome.faults, outcome.open) == (True, [], [])
+    assert outcome.files == files
+    assert outcome.evidence_digest == digest(files)
+    assert outcome.about == {
+        "python": platform.python_version(),
+        "sympy": sympy.__version__,
+        "kernel_sha256": kernel_digest(),
+        "evidence_sha256": digest(files),
+    }
+
+
+def refuted(outcome: Outcome) -> list[tuple[Verdict, str]]:
+    return [(v, q) for v in outcome.verdicts for q, a in v.answers.items() if a == "no"]
+
+
+def test_a_run_in_which_not_all_is_shown(outcome: Outcome) -> None:
+    first, *theorems = outcome.theorems
+    one, *verdicts = outcome.verdicts
+    none = replace(outcome, theorems=(replace(first, ok=False), *theorems))
+    assert (none.ok, none.faults) == (False, [])
+    spoiled = replace(outcome, verdicts=(Verdict(one.pattern, fault="spoiled"), *verdicts))
+    assert (spoiled.ok, spoiled.faults) == (False, ["spoiled"])
+    answers = one.answers | {"convex": "open", "valid": "open"}
+    undecided = replace(outcome, verdicts=(replace(one, answers=answers), *verdicts))
+    assert undecided.open == [("5_A", "convex"), ("5_A", "valid")]
+
+
+def test_completeness_is_not_asked_unless_all_tetrahedra_were_accepted(root: Path) -> None:
+    outcome = check_all(root)
+    assert sum(verdict.fault is None for verdict in outcome.verdicts) == 2
+    assert outcome.completeness == ()
 
 
 # What they state, counted again from the files and from scratch.
