@@ -324,6 +324,8 @@ def test_other_numbers_of_instances(
         ("convex", ["12_U realizable no"]),
         ("convex", ["15_A realizable yes"]),
         ("convex", ["15_A convex yes"]),
+        ("names", ["5_A realizable no"]),
+        ("names", ["15_A realizable yes", "15_A convex yes"]),
         ("valid", ["5_A valid no"]),
         ("valid", ["15_A valid yes"]),
         ("not-valid", ["5_A valid no"]),

@@ -134,7 +134,7 @@ def _flipped(flips: tuple[int, ...], conclude: Conclude) -> Conclude:
     def flip(signs: tuple[Signs, ...]) -> tuple[Signs, ...]:
         return tuple(opposite(s) if f < 0 else s for s, f in zip(signs, flips, strict=True))
 
-    return lambda signs: flip(conclude(flip(signs)))
+    return cache(lambda signs: flip(conclude(flip(signs))))
 
 
 @cache

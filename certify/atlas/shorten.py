@@ -13,6 +13,8 @@ from heapq import heappop, heappush
 from itertools import count
 from math import log2
 from random import Random
+from time import monotonic
+from typing import NamedTuple
 
 from certify.atlas.explanation import Outline
 from certify.atlas.reasons import ANY, Reason, Reasons, Signs, opposite
@@ -33,6 +35,14 @@ SPLITS: dict[Signs, tuple[tuple[Signs, Signs], ...]] = {
 """Signs that are left -> how a supposition may divide them."""
 
 FREEDOM = (0.0, *(log2(signs.bit_count()) for signs in range(1, 8)))
+
+
+class Choice(NamedTuple):
+    """A determinant, the signs that are supposed, and what to suppose in that case."""
+
+    place: int
+    signs: Signs
+    inner: "Sequence[Choice]"
 
 
 @dataclass
@@ -88,6 +98,10 @@ class Found:
     steps: int
     cases: int
 
+    @property
+    def length(self) -> tuple[int, int]:
+        return self.steps, self.cases
+
 
 class Problem:
     """A formula, indexed for the search."""
@@ -100,7 +114,8 @@ class Problem:
             for place in places:
                 self.at[place].append(k)
         self.given = {_NUMBER[q]: signs for q, (signs, _) in reasons.given.items()}
-        self.symmetries = [*self._symmetries()]
+        polynomials = any(reason.kind == "polynomial" for reason in self.reasons)
+        self.symmetries = [] if polynomials else [*self._symmetries()]
 
     def _symmetries(self) -> Iterator[tuple[tuple[int, ...], list[tuple[int, int]]]]:
         """Yield the relabellings that keep what is given, up to a mirror image of all points.
@@ -121,25 +136,29 @@ class Problem:
                 ):
                     yield symmetry, signed
 
-    def closure(self, signs: list[Signs], start: Iterable[int]) -> bool:
-        """Narrow the signs as far as single reasons do; return whether they are not contradictory."""
-        waiting = [k for place in start for k in self.at[place]]
-        queued = set(waiting)
-        while waiting:
-            k = waiting.pop()
-            queued.discard(k)
-            places = self.places[k]
-            remaining = self.reasons[k].conclude(tuple([signs[p] for p in places]))
-            for place, left in zip(places, remaining, strict=True):
-                if left != signs[place]:
-                    if not left:
-                        return False
-                    signs[place] = left
-                    for other in self.at[place]:
-                        if other not in queued and other != k:
-                            queued.add(other)
-                            waiting.append(other)
-        return True
+    def closure(self, signs: list[Signs], place: int) -> int:
+        """Narrow the signs as far as single reasons do, in rounds.
+
+        Return 0, or the number of the round that ends with a contradiction.
+        """
+        now = {*self.at[place]}
+        rounds = 0
+        while now:
+            rounds += 1
+            after: set[int] = set()
+            for k in sorted(now):
+                places = self.places[k]
+                seen = tuple([signs[p] for p in places])
+                remaining = self.reasons[k].conclude(seen)
+                if remaining != seen:
+                    for other, left in zip(places, remaining, strict=True):
+                        if left != signs[other]:
+                            if not left:
+                                return rounds
+                            signs[other] = left
+                            after.update(self.at[other])
+            now = after
+        return 0
 
 
 Weigh = Callable[[int, int], float]
@@ -156,13 +175,16 @@ class Try:
     noise: float
     events: list[Event] = field(default_factory=list)
 
-    def run(self) -> int | None:
-        """Return the event that is the last contradiction, None if the cases would be too deep."""
+    def run(self, plan: Iterable[Choice]) -> tuple[int, list[Choice]] | None:
+        """Return the event that is the last contradiction, and what was supposed.
+
+        None if the cases would be too deep. plan: what to suppose first.
+        """
         size = len(QUADRUPLES)
         state = State([ANY] * size, [[] for _ in range(size)])
         for determinant, signs in self.problem.given.items():
             self._note(state, Event(determinant, signs, None, (), 0, 0))
-        return self._solve(state, [*self.problem.given], 0)
+        return self._solve(state, [*self.problem.given], plan, 0)
 
     def _note(self, state: State, event: Event) -> int:
         self.events.append(event)
@@ -180,12 +202,12 @@ class Try:
         for k in {k for place in start for k in self.problem.at[place]}:
             self._fire(state, k, waiting, serial)
         while waiting:
-            cost, _, k, place, signs, needs = heappop(waiting)
-            left = signs & state.signs[place]
-            if left == state.signs[place]:
+            cost, _, k, place, left, needs = heappop(waiting)
+            now = self._concluded(state, k)[self.problem.places[k].index(place)]
+            if now == state.signs[place]:
                 continue
-            if left != signs:
-                needs = tuple({*needs, state.shown[place][-1][1]})
+            if now != left:  # more is known by now, and then found anew
+                continue
             reason = self.problem.reasons[k]
             number = self._note(state, Event(place, left, reason, needs, cost, state.scope))
             if not left:
@@ -195,14 +217,16 @@ class Try:
         return None
 
     def _fire(self, state: State, k: int, waiting: list, serial: Iterator[int]) -> None:
-        places = self.problem.places[k]
-        now = [state.signs[place] for place in places]
-        remaining = self.problem.reasons[k].conclude(tuple(now))
-        for i, place in enumerate(places):
-            if remaining[i] != now[i]:
+        remaining = self._concluded(state, k)
+        for i, place in enumerate(self.problem.places[k]):
+            if remaining[i] != state.signs[place]:
                 needs = self._needs(state, k, i, remaining[i])
                 cost = self.weigh(k, place) + sum(self.events[n].cost for n in needs)
                 heappush(waiting, (cost, next(serial), k, place, remaining[i], needs))
+
+    def _concluded(self, state: State, k: int) -> tuple[Signs, ...]:
+        now = tuple([state.signs[place] for place in self.problem.places[k]])
+        return self.problem.reasons[k].conclude(now)
 
     def _needs(self, state: State, k: int, i: int, signs: Signs) -> tuple[int, ...]:
         """Return events from which the conclusion follows, without the dearest ones if possible."""
@@ -230,54 +254,102 @@ class Try:
 
     # With suppositions.
 
-    def _solve(self, state: State, start: Iterable[int], depth: int) -> int | None:
+    def _solve(
+        self, state: State, start: Iterable[int], plan: Iterable[Choice], depth: int
+    ) -> tuple[int, list[Choice]] | None:
         """Return the contradiction to which a state leads, None if it is too deep."""
+        planned = iter(plan)
+        chosen: list[Choice] = []
         while (contradiction := self._propagate(state, start)) is None:
-            choice = self._choice(state)
+            choice = next(planned, None) or self._choice(state)
             if choice is None or depth >= DEPTH:
                 return None
-            place, signs = choice
-            changed = self._suppose(state, place, signs, depth)
+            place, signs, inner = choice
+            if not signs & state.signs[place] or not state.signs[place] & ~signs:
+                start = ()
+                continue
+            changed = self._suppose(state, place, signs, inner, depth)
             if changed is None:
                 return None
-            start = changed
-        return contradiction
+            start, inner = changed
+            chosen.append(Choice(place, signs, inner))
+        return contradiction, chosen
 
-    def _choice(self, state: State) -> tuple[int, Signs] | None:
-        """Return what to suppose: of what fails, what tells most; else what tells most by far."""
+    def _choice(self, state: State) -> Choice | None:
+        """Return what to suppose: what fails, as its opposite does; what fails; what tells most."""
         base = state.freedom
+        ends: list[tuple[int, Choice]] = []
         best, best_score = None, -1.0
-        for place, signs in enumerate(state.signs):
-            for pair in SPLITS.get(signs, ()):
-                gains = []
+        places = [k for k, signs in enumerate(state.signs) if signs in SPLITS]
+        if self.noise:
+            places = self.random.sample(places, (len(places) + 1) // 2)
+        for place in places:
+            for pair in SPLITS[state.signs[place]]:
+                gains, rounds = [], []
                 for part in pair:
                     tried = [*state.signs]
                     tried[place] = part
-                    open_ = self.problem.closure(tried, [place])
-                    gains.append(base - sum(FREEDOM[s] for s in tried) if open_ else base + 1000)
-                noise = 1 + self.noise * self.random.random()
-                for part, other in ((0, 1), (1, 0)):
-                    # The part fails, or is the one that tells more; then the other becomes a fact.
-                    if gains[part] >= gains[other] or gains[part] > 999:
-                        score = noise * (gains[part] * gains[other] + gains[other])
-                        if score > best_score:
-                            best, best_score = (place, pair[part]), score
+                    rounds.append(self.problem.closure(tried, place))
+                    gains.append(base - sum(FREEDOM[s] for s in tried))
+                if all(rounds):
+                    ends.append((sum(rounds), Choice(place, pair[0], ())))
+                    continue
+                if any(rounds):
+                    part = 0 if rounds[0] else 1
+                    score = 1e4 * gains[1 - part] / (rounds[part] + 1)
+                else:
+                    part = 0 if gains[0] >= gains[1] else 1
+                    score = gains[0] * gains[1] + min(gains)
+                score *= 1 + self.noise * self.random.random()
+                if score > best_score:
+                    best, best_score = Choice(place, pair[part], ()), score
+        if ends:
+            near = sorted(ends)[:8]
+            return min((choice for _, choice in near), key=lambda c: self._size(state, c))
         return best
 
-    def _suppose(self, state: State, place: int, signs: Signs, depth: int) -> list[int] | None:
+    def _size(self, state: State, choice: Choice) -> int:
+        """Return how many facts it takes to refute both a supposition and its opposite."""
+        kept = len(self.events)
+        ends = []
+        for signs in (choice.signs, state.signs[choice.place] & ~choice.signs):
+            inner = state.copy(-1)
+            last = self._last(state, choice.place)
+            self._note(inner, Event(choice.place, signs, None, last, 0, -1))
+            ends.append(self._propagate(inner, [choice.place]))
+        size = len(self._needed(end for end in ends if end is not None))
+        del self.events[kept:]
+        return size
+
+    def _needed(self, events: Iterable[int]) -> set[int]:
+        """Return some events and all that they need."""
+        needed: set[int] = set()
+        waiting = [*events]
+        while waiting:
+            number = waiting.pop()
+            if number not in needed:
+                needed.add(number)
+                waiting += self.events[number].needs
+        return needed
+
+    def _suppose(
+        self, state: State, place: int, signs: Signs, plan: Iterable[Choice], depth: int
+    ) -> tuple[list[int], list[Choice]] | None:
         """Show that a determinant has not these signs; return the determinants with new facts."""
         scope = len(self.events) + 1
         inner = state.copy(scope)
-        supposed = self._note(inner, Event(place, signs, None, self._last(state, place), 0, scope))
-        contradiction = self._solve(inner, [place], depth + 1)
-        if contradiction is None:
+        left = state.signs[place] & signs
+        supposed = self._note(inner, Event(place, left, None, self._last(state, place), 0, scope))
+        solved = self._solve(inner, [place], plan, depth + 1)
+        if solved is None:
             return None
+        contradiction, chosen = solved
         cause = Supposed(supposed, contradiction)
         cost = self.events[contradiction].cost + 1
         rest = state.signs[place] & ~signs
         needs = (contradiction, *self._last(state, place))
         case = self._note(state, Event(place, rest, cause, needs, cost, state.scope))
-        return [place, *self._images(state, case, place, signs, cost)]
+        return [place, *self._images(state, case, place, signs, cost)], chosen
 
     def _last(self, state: State, place: int) -> tuple[int, ...]:
         return (state.shown[place][-1][1],) if state.shown[place] else ()
@@ -299,13 +371,7 @@ class Try:
 
     def found(self, contradiction: int) -> Found:
         """Return what the contradiction needs as an outline."""
-        needed: set[int] = set()
-        waiting = [contradiction]
-        while waiting:
-            number = waiting.pop()
-            if number not in needed:
-                needed.add(number)
-                waiting += self.events[number].needs
+        needed = self._needed([contradiction])
         causes = [self.events[number].cause for number in needed]
         return Found(
             self._outline(sorted(needed), 0),
@@ -334,31 +400,71 @@ class Try:
         return outline
 
 
-def shorten(problem: Problem, seed: int, tries: int) -> Iterator[Found]:
-    """Yield what is found in some tries, each shorter than the one before."""
+def shorten(problem: Problem, seed: int, seconds: float) -> Iterator[Found]:
+    """Yield what is found in some time, each shorter than the one before.
+
+    The best one so far is changed: other steps for the same suppositions, or, from one of them on,
+    other suppositions.
+    """
     random = Random(seed)
     best: Found | None = None
-    cheap: dict[tuple[str, str], float] = {}
-    for k in range(tries):
-        weights: dict[tuple[int, int], float] = {}
+    plan: list[Choice] = []
+    start = monotonic()
+    tries = 0
+    while tries < 4 or monotonic() - start < seconds:
+        tries += 1
+        weights = Weights(problem, random, best.outline if best else [])
+        kept = plan
+        if random.random() < 0.4:
+            kept = shortened(plan, random)
+        noise = random.choice((0.0, 0.5, 2.0)) if best else 0.0
+        one = Try(problem, weights, random, noise)
+        solved = one.run(kept)
+        if solved is None:
+            continue
+        contradiction, chosen = solved
+        found = one.found(contradiction)
+        if best is None or found.length <= best.length:
+            if best is None or found.length < best.length:
+                yield found
+            best, plan = found, chosen
 
-        def weigh(reason: int, place: int) -> float:
-            key = (reason, place)
-            if key not in weights:
-                digits = "".join(map(str, QUADRUPLES[place]))
-                used = cheap.get((problem.reasons[reason].name, digits), 1.0)
-                weights[key] = used * (1 + 0.4 * random.random())
-            return weights[key]
 
-        one = Try(problem, weigh, random, random.choice((0, 0.2, 1)) if k else 0)
-        contradiction = one.run()
-        if contradiction is not None:
-            found = one.found(contradiction)
-            if best is None or (found.steps, found.cases) <= (best.steps, best.cases):
-                if best is None or (found.steps, found.cases) < (best.steps, best.cases):
-                    yield found
-                best = found
-                cheap = dict.fromkeys(_entries(found.outline), 0.6)
+def shortened(plan: Sequence[Choice], random: Random) -> list[Choice]:
+    """Return a plan without some of its end, or the end of one of its cases, or one entry."""
+    if not plan:
+        return []
+    k = random.randrange(len(plan))
+    place, signs, inner = plan[k]
+    if inner and random.random() < 0.5:
+        changed = Choice(place, signs, shortened(inner, random))
+        return [*plan[:k], changed, *plan[k + 1 :]]
+    return [*plan[:k], *(plan[k + 1 :] if random.random() < 0.5 else ())]
+
+
+class Weights:
+    """Random costs of steps; those of an outline are cheap."""
+
+    def __init__(self, problem: Problem, random: Random, outline: Outline) -> None:
+        self._random = random
+        self._names = [reason.name for reason in problem.reasons]
+        self._cheap = {*_entries(outline)}
+        self._spread = random.choice((0.1, 0.4, 1.0))
+        self._discount = random.choice((0.5, 0.7, 0.9))
+        self._weights: dict[tuple[int, int], float] = {}
+
+    def __call__(self, reason: int, place: int) -> float:
+        key = (reason, place)
+        if key not in self._weights:
+            weight = 1 + self._spread * self._random.random()
+            if (self._names[reason], digits_of(place)) in self._cheap:
+                weight *= self._discount
+            self._weights[key] = weight
+        return self._weights[key]
+
+
+def digits_of(place: int) -> str:
+    return "".join(map(str, QUADRUPLES[place]))
 
 
 def _entries(outline: Outline) -> Iterator[tuple[str, str]]:
