@@ -99,6 +99,8 @@ def test_usage(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
+    for name in ("-h", "--help"):  # a folder of this name is not meant
+        (tmp_path / name / "certificates").mkdir(parents=True)
     monkeypatch.chdir(tmp_path)
     assert door.main(arguments) == code
     usage = "usage: python -m certify.kernel [ROOT], with a folder ROOT/certificates\n"
