@@ -263,5 +263,19 @@ def test_shelling_says_how_far_it_came() -> None:
         shelling(disjoint)
 
 
+def test_nothing_has_no_shelling() -> None:
+    with pytest.raises(NotATriangulation, match="^no shelling goes beyond 0 of 0 tetrahedra$"):
+        shelling(())
+
+
+def test_a_tetrahedron_may_meet_others_in_three_triangles_but_not_in_four() -> None:
+    """Four of the five tetrahedra on five vertices are a ball; all five are a sphere."""
+    five = tuple(combinations(range(1, 6), 4))
+    for four in combinations(five, 4):
+        assert shelling(four) == four
+    with pytest.raises(NotATriangulation, match="^no shelling goes beyond 4 of 5 tetrahedra$"):
+        shelling(five)
+
+
 def test_label_is_the_vertices_in_a_row() -> None:
     assert label((1, 3, 8)) == "138"

@@ -54,6 +54,9 @@ class Step:
     before: Mapping[Simplex, Signs]
     """What is used: determinant of the reason -> signs that were known."""
     uses: tuple[int, ...]
+    """The steps that showed this: 0 for what is given, -k for the k-th open supposition."""
+    excluded: Signs
+    """The signs that the determinant might still have had, and has not."""
 
 
 @dataclass(frozen=True)
@@ -160,7 +163,7 @@ class _Follower:
         before, uses = self._needed(reason, place, signs, known)
         fact = Fact(target, signs)
         self.number += 1
-        step = Step(self.number, fact, reason, before, uses)
+        step = Step(self.number, fact, reason, before, uses, now[place] & ~signs)
         self._show(step, known)
         known.add(fact, step.number)
         return step
@@ -169,7 +172,9 @@ class _Follower:
         self, reason: Reason, place: int, signs: Signs, known: _Known
     ) -> tuple[dict[Simplex, Signs], tuple[int, ...]]:
         """Return the least that has to be known, and the steps that showed it."""
-        choices = [[(ANY, None), *known.history.get(q, ())] for q in reason.determinants]
+        choices: list[list[tuple[Signs, int | None]]] = [
+            [(ANY, None), *known.history.get(q, ())] for q in reason.determinants
+        ]
         chosen = [len(options) - 1 for options in choices]
 
         def enough() -> bool:
@@ -180,6 +185,8 @@ class _Follower:
             return choices[i][chosen[i]][1] or 0
 
         for i in sorted(range(len(choices)), key=latest, reverse=True):
+            if reason.kind == "circuit" and latest(i) == 0:
+                continue  # with all that is given the picture is clearer
             best = chosen[i]
             for chosen[i] in range(best + 1):
                 if enough():

@@ -229,7 +229,7 @@ def _by_clause(clause: Clause) -> Conclude:
 def literals_for(quadruple: Simplex, signs: Signs) -> list[tuple[int, ...]]:
     """Return the clauses that together say that a determinant has one of these signs."""
     positive, negative = has_sign(quadruple, 1), has_sign(quadruple, -1)
-    return {
+    clauses: dict[Signs, list[tuple[int, ...]]] = {
         POSITIVE: [(positive,)],
         NEGATIVE: [(negative,)],
         ZERO: [(-positive,), (-negative,)],
@@ -237,4 +237,5 @@ def literals_for(quadruple: Simplex, signs: Signs) -> list[tuple[int, ...]]:
         NEGATIVE + ZERO: [(-positive,)],
         POSITIVE + NEGATIVE: [(positive, negative)],
         0: [()],
-    }[signs]
+    }
+    return clauses[signs]

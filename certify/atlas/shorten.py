@@ -14,7 +14,7 @@ from itertools import count
 from math import log2
 from random import Random
 from time import monotonic
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 from certify.atlas.explanation import Outline
 from certify.atlas.reasons import ANY, Reason, Reasons, Signs, opposite
@@ -161,7 +161,10 @@ class Problem:
         return 0
 
 
-Weigh = Callable[[int, int], float]
+Waiting: TypeAlias = tuple[float, int, int, int, Signs, tuple[int, ...]]
+"""Cost, serial number, reason, determinant, what it will have, and what that needs."""
+
+Weigh: TypeAlias = Callable[[int, int], float]
 """Reason and determinant -> what a step costs."""
 
 
@@ -197,7 +200,7 @@ class Try:
 
     def _propagate(self, state: State, start: Iterable[int]) -> int | None:
         """Add facts, cheap ones first; return the contradiction if there is one."""
-        waiting: list[tuple[float, int, int, int, Signs, tuple[int, ...]]] = []
+        waiting: list[Waiting] = []
         serial = count()
         for k in {k for place in start for k in self.problem.at[place]}:
             self._fire(state, k, waiting, serial)
@@ -216,7 +219,7 @@ class Try:
                 self._fire(state, other, waiting, serial)
         return None
 
-    def _fire(self, state: State, k: int, waiting: list, serial: Iterator[int]) -> None:
+    def _fire(self, state: State, k: int, waiting: list[Waiting], serial: Iterator[int]) -> None:
         remaining = self._concluded(state, k)
         for i, place in enumerate(self.problem.places[k]):
             if remaining[i] != state.signs[place]:
