@@ -264,7 +264,7 @@ def test_shelling_says_how_far_it_came() -> None:
 
 
 def test_nothing_has_no_shelling() -> None:
-    with pytest.raises(NotATriangulation, match="^no shelling goes beyond 0 of 0 tetrahedra$"):
+    with pytest.raises(NotATriangulation, match="no shelling goes beyond 0 of 0 tetrahedra"):
         shelling(())
 
 
@@ -273,7 +273,7 @@ def test_a_tetrahedron_may_meet_others_in_three_triangles_but_not_in_four() -> N
     five = tuple(combinations(range(1, 6), 4))
     for four in combinations(five, 4):
         assert shelling(four) == four
-    with pytest.raises(NotATriangulation, match="^no shelling goes beyond 4 of 5 tetrahedra$"):
+    with pytest.raises(NotATriangulation, match="no shelling goes beyond 4 of 5 tetrahedra"):
         shelling(five)
 
 

@@ -176,7 +176,10 @@ def check_completeness(root: Path, letter: str, verdicts: Iterable[Verdict]) -> 
 
 
 def instances_bounded_by(letter: str, verdicts: Iterable[Verdict]) -> list[Tetrahedra]:
-    """Return the accepted triangulations whose boundary is the type's representative, sorted."""
+    """Return the accepted triangulations whose boundary is the type's representative, sorted.
+
+    Only those of its letter can have it: they alone are looked at, to save time.
+    """
     return sorted(
         instance
         for verdict in verdicts

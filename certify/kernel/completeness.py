@@ -53,8 +53,9 @@ def edge_clauses(boundary: Collection[Simplex]) -> Iterator[Clause]:
     and three of six).
     """
     for edge in combinations(VERTICES, 2):
-        ends = {v for face in boundary if set(edge) < set(face) for v in face if v not in edge}
-        free = [vertex for vertex in VERTICES if vertex not in ends and vertex not in edge]
+        others = [vertex for vertex in VERTICES if vertex not in edge]
+        ends = [vertex for vertex in others if simplex((*edge, vertex)) in boundary]
+        free = [vertex for vertex in others if vertex not in ends]
         if ends:
             forbidden = [cycle for size in (3, 4) for cycle in _cycles(free, size)]
         else:

@@ -90,14 +90,17 @@ def shelling(tetrahedra: tuple[Simplex, ...]) -> tuple[Simplex, ...]:
 
 
 def _attaches(tetrahedron: Simplex, order: list[Simplex]) -> bool:
-    """Does the tetrahedron meet the union of ``order`` in one, two or three triangles?"""
+    """Does the tetrahedron meet the union of ``order`` in one, two or three triangles?
+
+    That there is one needs no question: an empty restriction would be a face of all of them.
+    """
     shared = [set(tetrahedron).intersection(other) for other in order]
     restriction = {
         vertex
         for vertex in tetrahedron
         if any(len(common) == 3 and vertex not in common for common in shared)
     }
-    return 1 <= len(restriction) <= 3 and not any(restriction <= common for common in shared)
+    return len(restriction) <= 3 and not any(restriction <= common for common in shared)
 
 
 def orientation(tetrahedra: tuple[Simplex, ...]) -> dict[Simplex, int]:
