@@ -83,10 +83,12 @@ class State:
     scope: int = 0
 
     def copy(self, scope: int) -> "State":
+        """Return the same, as the beginning of another scope."""
         return State([*self.signs], [[*shown] for shown in self.shown], scope)
 
     @property
     def freedom(self) -> float:
+        """The number of bits that the signs leave open."""
         return sum(FREEDOM[signs] for signs in self.signs)
 
 
@@ -100,6 +102,7 @@ class Found:
 
     @property
     def length(self) -> tuple[int, int]:
+        """What makes one outline shorter than another."""
         return self.steps, self.cases
 
 
@@ -457,6 +460,7 @@ class Weights:
         self._weights: dict[tuple[int, int], float] = {}
 
     def __call__(self, reason: int, place: int) -> float:
+        """Return what it costs to use a reason for a determinant."""
         key = (reason, place)
         if key not in self._weights:
             weight = 1 + self._spread * self._random.random()
@@ -467,6 +471,7 @@ class Weights:
 
 
 def digits_of(place: int) -> str:
+    """Return the name of a determinant."""
     return "".join(map(str, QUADRUPLES[place]))
 
 

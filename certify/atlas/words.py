@@ -6,6 +6,7 @@ All four are made from the same lines, and these from what the kernel has replay
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from itertools import combinations, product
+from textwrap import wrap
 from typing import Any
 
 from certify.atlas.explanation import Case, Explanation, Fact, Item, Mirror, Step
@@ -14,8 +15,9 @@ from certify.kernel.chirotope import RELATIONS, dependence
 from certify.kernel.hexahedron import Simplex, sorted_with_sign
 from certify.kernel.triangulation import label
 
-RELATION_TO_ZERO = {1: "<", 2: "=", 3: "<=", 4: ">", 5: "!=", 6: ">="}
-MARK = {0: "!", 1: "-", 2: "0", 3: "≤", 4: "+", 5: "≠", 6: "≥", 7: "?"}
+COMPARED = {1: "< 0", 2: "= 0", 3: "<= 0", 4: "> 0", 5: "!= 0", 6: ">= 0"}
+MARKS = {0: "", 1: "-", 2: "0", 3: "<=", 4: "+", 5: "!=", 6: ">=", 7: "?"}
+"""Signs -> how they are written under a bracket."""
 
 
 @dataclass(frozen=True)
@@ -31,7 +33,8 @@ class Line:
     """One line of an explanation.
 
     depth: in how many cases it is; number: None for the line that opens a case; says: the fact;
-    because: the reason; terms: if that is a relation, the whole of it; uses: earlier lines.
+    because: the reason; terms: if that is a relation, the whole of it; uses: numbers of earlier
+    lines.
     """
 
     depth: int
@@ -39,73 +42,105 @@ class Line:
     says: str
     because: str
     terms: tuple[Term, ...] = ()
-    uses: tuple[str, ...] = ()
+    uses: tuple[int, ...] = ()
 
 
-def lines(explanation: Explanation, faces: frozenset[Simplex]) -> Iterator[Line]:
-    """Yield the lines of an explanation; faces: those of the tetrahedra, of all dimensions."""
-    return _lines(explanation.steps, (), faces)
+@dataclass(frozen=True)
+class Account:
+    """All that is said: a title, what is assumed, what that gives, and the lines."""
+
+    title: str
+    assumed: str
+    given: tuple[str, ...]
+    lines: tuple[Line, ...]
 
 
-def _lines(
-    items: Sequence[Item], open_cases: tuple[str, ...], faces: frozenset[Simplex]
-) -> Iterator[Line]:
-    depth = len(open_cases)
+TITLES = {
+    "realizable": "{} has no realization",
+    "convex": "{} has no realization in convex position",
+    "valid": "{} carries no valid hexahedron",
+}
+ASSUMED = {
+    "realizable": "Suppose that eight points realize {}, not mirrored.",
+    "convex": "Suppose that eight points realize {}, not mirrored, and none is inside the hull.",
+    "valid": "Suppose that eight points realize {}, not mirrored, and that the Jacobian is "
+    "positive on the closed cube.",
+}
+NOTATION = (
+    "[abcd] is the determinant of p_b - p_a, p_c - p_a, p_d - p_a. Its sign, as far as it is "
+    "known, is written at a bracket. Numbers in parentheses are those of earlier steps."
+)
+
+
+def account(
+    explanation: Explanation, pattern: str, question: str, tetrahedra: Sequence[Simplex]
+) -> Account:
+    """Return in words what has been replayed."""
+    given = tuple(says(Fact(q, signs)) for q, signs in explanation.given.items())
+    found = tuple(_lines(explanation.steps, 0, faces_of(tetrahedra)))
+    title, assumed = (what[question].format(pattern) for what in (TITLES, ASSUMED))
+    return Account(title, assumed, given, found)
+
+
+def _lines(items: Sequence[Item], depth: int, faces: frozenset[Simplex]) -> Iterator[Line]:
     for item in items:
         match item:
             case Step():
-                uses = tuple(_use(k) for k in item.uses)
+                uses = tuple(k for k in item.uses if k > 0)
                 because, terms = _because(item, faces)
                 yield Line(depth, item.number, says(item.fact), because, terms, uses)
             case Case():
-                supposed = says(item.supposed)
-                yield Line(depth, None, supposed, "suppose")
-                yield from _lines(item.steps, (*open_cases, supposed), faces)
-                yield Line(depth, item.number, says(item.fact), f"it is not so that {supposed}")
-            case Mirror():
-                because = f"as {item.of}, with {exchanged(item.symmetry)}"
+                yield Line(depth, None, says(item.supposed), "suppose")
+                yield from _lines(item.steps, depth + 1, faces)
+                because = f"for {says(item.supposed)} is contradictory"
                 yield Line(depth, item.number, says(item.fact), because)
-
-
-def _use(number: int) -> str:
-    return "given" if number == 0 else "supposed" if number < 0 else str(number)
+            case Mirror():
+                because = f"as {item.of}, with the vertices exchanged by {cycles(item.symmetry)}"
+                yield Line(depth, item.number, says(item.fact), because)
 
 
 def says(fact: Fact) -> str:
     """Return a fact as a formula."""
     if not fact.signs:
         return "contradiction"
-    return f"[{label(fact.determinant)}] {RELATION_TO_ZERO[fact.signs]} 0"
+    return f"[{label(fact.determinant)}] {COMPARED[fact.signs]}"
 
 
-def exchanged(symmetry: tuple[int, ...]) -> str:
-    """Return a relabelling as its cycles."""
-    cycles = []
-    seen: set[int] = set()
-    for start in range(1, 9):
-        cycle = []
-        vertex = start
+def cycles(symmetry: tuple[int, ...]) -> str:
+    """Return a relabelling as its cycles, such as (1 7)(2 6)."""
+    text, seen = "", set[int]()
+    for start in range(1, len(symmetry) + 1):
+        cycle, vertex = [], start
         while vertex not in seen:
             seen.add(vertex)
             cycle.append(vertex)
             vertex = symmetry[vertex - 1]
         if len(cycle) > 1:
-            cycles.append(f"({' '.join(map(str, cycle))})")
-    return "".join(cycles)
+            text += f"({' '.join(map(str, cycle))})"
+    return text
+
+
+def faces_of(tetrahedra: Sequence[Simplex]) -> frozenset[Simplex]:
+    """Return all faces of some tetrahedra."""
+    return frozenset(
+        face for t in tetrahedra for size in (1, 2, 3, 4) for face in combinations(t, size)
+    )
 
 
 def _because(step: Step, faces: frozenset[Simplex]) -> tuple[str, tuple[Term, ...]]:
     reason = step.reason
+    otherwise = "else " if step.fact.signs else ""
     match reason.kind:
         case "relation":
-            return f"Grassmann-Plücker {reason.name}", terms_of(reason, step.before)
+            return f"Grassmann-Pluecker {reason.name}", terms_of(reason, step.before)
         case "circuit":
-            return _circuit(step, faces), ()
+            return otherwise + _circuit(step, faces), ()
         case "edge":
-            return f"Jacobian along the edge {label(reason.vertices)}", ()
+            edge = label(reason.vertices)
+            return f"{otherwise}the Jacobian would not be positive along edge {edge}", ()
         case "section":
-            one, other = reason.determinants
-            return f"section lemma, facets {label(one)} and {label(other)}", ()
+            one, other = map(label, reason.determinants)
+            return f"{otherwise}a plane between {one} and {other} would cut no disc", ()
     return f"final polynomial {reason.vertices[0]}", ()
 
 
@@ -113,21 +148,16 @@ def _because(step: Step, faces: frozenset[Simplex]) -> tuple[str, tuple[Term, ..
 
 
 def terms_of(reason: Reason, known: Mapping[Simplex, Signs]) -> tuple[Term, ...]:
-    """Return a relation with brackets in increasing order, the first term positive."""
+    """Return a relation with brackets in increasing order, its first term positive."""
     s, t, a, b, c, d = reason.vertices
-    relation = next(
-        terms for terms in RELATIONS if (terms[0][0], terms[0][1]) == ((s, t, a, b), (s, t, c, d))
-    )
+    first = ((s, t, a, b), (s, t, c, d))
+    relation = next(terms for terms in RELATIONS if terms[0][:2] == first)
     found = []
     for x, y, sign in relation:
-        (first, p), (second, q) = sorted_with_sign(x), sorted_with_sign(y)
-        pair = ((label(first), _mark(known, first)), (label(second), _mark(known, second)))
-        found.append(Term(sign * p * q, pair))
+        sorted_ = sorted_with_sign(x), sorted_with_sign(y)
+        one, other = ((label(q), MARKS[known.get(q, ANY)]) for q, _ in sorted_)
+        found.append(Term(sign * sorted_[0][1] * sorted_[1][1], (one, other)))
     return tuple(Term(term.sign * found[0].sign, term.brackets) for term in found)
-
-
-def _mark(known: Mapping[Simplex, Signs], quadruple: Simplex) -> str:
-    return MARK[known.get(quadruple, ANY)]
 
 
 # Circuits.
@@ -144,17 +174,20 @@ def _circuit(step: Step, faces: frozenset[Simplex]) -> str:
         _sides(step.reason.vertices, dict(zip(may, signs, strict=True)))
         for signs in product(*map(_values, may.values()))
     ]
-    wrong = {_wrong(*sides, faces) for sides in circuits if any(sides)}
+    # Coefficients whose sum is zero have both signs, or none.
+    wrong = {_wrong(*sides, faces) for sides in circuits if all(sides)}
+    if not wrong:
+        return f"the dependence of {label(step.reason.vertices)} would have one sign only"
     if len(wrong) == 1:
-        return f"else {wrong.pop()}"
+        return wrong.pop()
     one, other = (
         label([v for v in step.reason.vertices if all(v in sides[k] for sides in circuits)])
         for k in (0, 1)
     )
     ending = " or a vertex be inside the hull" if any("hull" in what for what in wrong) else ""
     if one and other:
-        return f"else a face with {one} would meet one with {other}{ending}"
-    return f"else faces of {label(step.reason.vertices)} would meet{ending}"
+        return f"a face with {one} would meet one with {other}{ending}"
+    return f"faces of {label(step.reason.vertices)} would meet{ending}"
 
 
 def _sides(vertices: Simplex, signs: Mapping[Simplex, int]) -> tuple[Simplex, Simplex]:
@@ -165,74 +198,134 @@ def _sides(vertices: Simplex, signs: Mapping[Simplex, int]) -> tuple[Simplex, Si
     )
 
 
-def _wrong(positive: Simplex, negative: Simplex, faces: frozenset[Simplex]) -> str:
-    one, other = sorted((positive, negative), key=len)
-    if one in faces and other in faces:
-        return meeting(one, other)
-    return f"vertex {label(one)} would be inside the hull, in {label(other)}"
-
-
 def _values(signs: Signs) -> list[int]:
     return [value for sign, value in SIGN.items() if sign & signs]
 
 
-def meeting(one: Simplex, other: Simplex) -> str:
-    """Say how two faces without a common vertex meet, the smaller one first."""
-    match len(one), len(other):
-        case 1, 2:
-            return f"vertex {label(one)} would lie on edge {label(other)}"
-        case 1, 3:
-            return f"vertex {label(one)} would lie in triangle {label(other)}"
-        case 1, 4:
-            return f"vertex {label(one)} would lie inside tetrahedron {label(other)}"
-        case 2, 2:
-            return f"edges {label(one)} and {label(other)} would cross"
-        case 2, 3:
-            return f"edge {label(one)} would pierce triangle {label(other)}"
-    return f"{label(one)} and {label(other)} would meet"
-
-
-def faces_of(tetrahedra: Sequence[Simplex]) -> frozenset[Simplex]:
-    """Return all faces of some tetrahedra."""
-    return frozenset(
-        face for t in tetrahedra for size in (1, 2, 3, 4) for face in combinations(t, size)
-    )
+def _wrong(positive: Simplex, negative: Simplex, faces: frozenset[Simplex]) -> str:
+    one, other = sorted((positive, negative), key=lambda side: (len(side), side))
+    if one not in faces or other not in faces:
+        return f"vertex {label(one)} would be inside the hull, in {label(other)}"
+    first, second = label(one), label(other)
+    return {
+        (1, 1): f"vertices {first} and {second} would coincide",
+        (1, 2): f"vertex {first} would be on edge {second}",
+        (1, 3): f"vertex {first} would be in triangle {second}",
+        (1, 4): f"vertex {first} would be inside tetrahedron {second}",
+        (2, 2): f"edges {first} and {second} would cross",
+        (2, 3): f"edge {first} would pierce triangle {second}",
+    }[len(one), len(other)]
 
 
 # Formats.
 
 
-def as_json(explanation: Explanation, faces: frozenset[Simplex]) -> dict[str, Any]:
-    """Return the explanation as a JSON object."""
-    return {
-        "given": [says(Fact(q, signs)) for q, signs in explanation.given.items()],
-        "lines": [asdict(line) for line in lines(explanation, faces)],
-        "lrat": explanation.lrat,
-    }
+def as_json(told: Account) -> dict[str, Any]:
+    """Return the account as a JSON object."""
+    return asdict(told)
 
 
-def as_text(explanation: Explanation, faces: frozenset[Simplex]) -> str:
-    """Return the explanation as plain text of at most 80 columns."""
-    out = ["Given:"]
-    given = [says(Fact(q, signs)) for q, signs in explanation.given.items()]
-    rows = (given[i : i + 5] for i in range(0, len(given), 5))
+def as_text(told: Account, width: int = 80) -> str:
+    """Return the account as plain text."""
+    out = [told.title, "", *wrap(f"{told.assumed} {NOTATION}", width), ""]
+    rows = (told.given[i : i + 5] for i in range(0, len(told.given), 5))
     out += ["   " + "  ".join(f"{fact:<12}" for fact in row).rstrip() for row in rows]
-    for line in lines(explanation, faces):
+    out.append("")
+    for line in told.lines:
         pad = "   " * line.depth
         if line.number is None:
-            out += ["", f"{pad}Suppose {line.says}."]
+            out.append(f"{pad}Suppose {line.says}.")
             continue
-        uses = f" ({', '.join(line.uses)})" if line.uses else ""
-        out.append(f"{pad}{line.number:>3}. {line.says:<13} {line.because}{uses}")
-        if line.terms:
-            out += [f"{pad}{'':18}  {row}" for row in _rows(line.terms)]
+        head = f"{pad}{line.number:>3}. {line.says:<14}"
+        body = f"{line.because}{_used(line)}"
+        first, *more = wrap(body, width - len(head))
+        out += [head + first, *(" " * len(head) + part for part in more)]
+        out += [f"{pad}{'':5}{row}" for row in _rows(line.terms)]
     return "\n".join(out)
 
 
-def _rows(terms: Sequence[Term]) -> tuple[str, str]:
-    above, below = "", ""
-    for k, term in enumerate(terms):
-        sign = "" if k == 0 else " + " if term.sign > 0 else " - "
+def _used(line: Line) -> str:
+    return f" ({', '.join(map(str, line.uses))})" if line.uses else ""
+
+
+def _rows(terms: Sequence[Term]) -> Iterator[str]:
+    """Yield a relation, and under each bracket its sign."""
+    above = below = ""
+    for term in terms:
+        sign = (" + " if term.sign > 0 else " - ") if above else ""
         above += sign + "".join(f"[{name}]" for name, _ in term.brackets)
         below += " " * len(sign) + "".join(f"{mark:^6}" for _, mark in term.brackets)
-    return f"{above} = 0", below.rstrip()
+    if terms:
+        yield f"{above} = 0"
+        yield below.rstrip()
+
+
+def as_markdown(told: Account) -> str:
+    """Return the account as Markdown with formulas that a code host sets."""
+    out = [f"# {told.title}", "", f"{told.assumed} {NOTATION}", ""]
+    out += [", ".join(f"${_tex(fact)}$" for fact in told.given) + ".", ""]
+    for line in told.lines:
+        pad = "  " * line.depth
+        if line.number is None:
+            out.append(f"{pad}- Suppose ${_tex(line.says)}$.")
+            continue
+        fact = line.says if line.says == "contradiction" else f"${_tex(line.says)}$"
+        formula = f": ${_relation(line.terms)}$" if line.terms else ""
+        out.append(
+            f"{pad}- **{line.number}.** {fact}; {_words(line.because)}{_used(line)}{formula}."
+        )
+    return "\n".join(out)
+
+
+def as_latex(told: Account) -> str:
+    """Return the account as a LaTeX document."""
+    title = _escaped(told.title)
+    out = [LATEX_HEAD, rf"\section*{{{title}}}", f"{_escaped(told.assumed)} {LATEX_NOTATION}", ""]
+    out += [", ".join(f"${_tex(fact)}$" for fact in told.given) + ".", "", LATEX_BEGIN]
+    depth = 0
+    for line in told.lines:
+        out += [LATEX_BEGIN] * (line.depth - depth) + [LATEX_END] * (depth - line.depth)
+        depth = line.depth
+        if line.number is None:
+            out.append(rf"\item[] Suppose ${_tex(line.says)}$.")
+            continue
+        fact = line.says if line.says == "contradiction" else f"${_tex(line.says)}$"
+        formula = rf" \[{_relation(line.terms)}\]" if line.terms else "."
+        because = _escaped(_words(line.because))
+        out.append(rf"\item[{line.number}.] {fact}; {because}{_used(line)}{formula}")
+    return "\n".join([*out, *[LATEX_END] * (depth + 1), LATEX_TAIL])
+
+
+LATEX_HEAD = r"""\documentclass[a4paper]{article}
+\usepackage[T1]{fontenc}
+\usepackage{amsmath}
+\setlength{\parindent}{0pt}
+\begin{document}
+\raggedright"""
+LATEX_NOTATION = (
+    r"$[abcd]$ is the determinant of $p_b - p_a$, $p_c - p_a$, $p_d - p_a$. Its sign, as far as it "
+    "is known, is written at a bracket. Numbers in parentheses are those of earlier steps."
+)
+LATEX_BEGIN, LATEX_END, LATEX_TAIL = r"\begin{itemize}", r"\end{itemize}", r"\end{document}"
+
+
+def _escaped(text: str) -> str:
+    return text.replace("_", r"\_").replace("Pl\u00fccker", r"Pl\"ucker")
+
+
+def _tex(formula: str) -> str:
+    for plain, command in (("<=", r"\le"), (">=", r"\ge"), ("!=", r"\ne")):
+        formula = formula.replace(plain, command)
+    return formula
+
+
+def _words(because: str) -> str:
+    return because.replace("Pluecker", "Plücker")
+
+
+def _relation(terms: Sequence[Term]) -> str:
+    text = ""
+    for term in terms:
+        text += (" + " if term.sign > 0 else " - ") if text else ""
+        text += "".join(rf"\overset{{{_tex(mark)}}}{{[{name}]}}" for name, mark in term.brackets)
+    return f"{text} = 0"
