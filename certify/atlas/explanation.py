@@ -312,6 +312,7 @@ class _Follower:
         shown = [
             self._lemma((*clause, *(e for e in escape if e not in clause)), clauses)
             for clause in literals_for(step.fact.determinant, step.fact.signs)
+            if not set(clause).intersection(known.supposed)  # else it was just supposed
         ]
         self.of_step[step.number] = shown
 

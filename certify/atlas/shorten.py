@@ -13,7 +13,6 @@ from heapq import heappop, heappush
 from itertools import count
 from math import log2
 from random import Random
-from time import monotonic
 from typing import NamedTuple, TypeAlias
 
 from certify.atlas.explanation import Outline
@@ -92,18 +91,11 @@ class State:
         return sum(FREEDOM[signs] for signs in self.signs)
 
 
-@dataclass
-class Found:
-    """An outline, and how long it is for a reader."""
+class Found(NamedTuple):
+    """An outline, with the number of its steps and of its cases."""
 
     outline: Outline
-    steps: int
-    cases: int
-
-    @property
-    def length(self) -> tuple[int, int]:
-        """What makes one outline shorter than another."""
-        return self.steps, self.cases
+    length: tuple[int, int]
 
 
 class Problem:
@@ -378,12 +370,8 @@ class Try:
     def found(self, contradiction: int) -> Found:
         """Return what the contradiction needs as an outline."""
         needed = self._needed([contradiction])
-        causes = [self.events[number].cause for number in needed]
-        return Found(
-            self._outline(sorted(needed), 0),
-            sum(cause is not None for cause in causes),
-            sum(isinstance(cause, Supposed) for cause in causes),
-        )
+        outline = self._outline(sorted(needed), 0)
+        return Found(outline, length_of(outline))
 
     def _outline(self, needed: Sequence[int], scope: int) -> Outline:
         outline: Outline = []
@@ -406,23 +394,18 @@ class Try:
         return outline
 
 
-def shorten(problem: Problem, seed: int, seconds: float) -> Iterator[Found]:
-    """Yield what is found in some time, each shorter than the one before.
+def shorten(problem: Problem, seed: int, tries: int, outline: Outline) -> Iterator[Found]:
+    """Yield what some tries find, each shorter than the one before and than a given outline.
 
     The best one so far is changed: other steps for the same suppositions, or, from one of them on,
-    other suppositions.
+    other suppositions. An empty outline stands for none.
     """
     random = Random(seed)
-    best: Found | None = None
-    plan: list[Choice] = []
-    start = monotonic()
-    tries = 0
-    while tries < 4 or monotonic() - start < seconds:
-        tries += 1
-        weights = Weights(problem, random, best.outline if best else [])
-        kept = plan
-        if random.random() < 0.4:
-            kept = shortened(plan, random)
+    best, plan = outline, plan_of(outline)
+    length = length_of(outline) if outline else None
+    for _ in range(tries):
+        weights = Weights(problem, random, best)
+        kept = shortened(plan, random) if random.random() < 0.4 else plan
         noise = random.choice((0.0, 0.5, 2.0)) if best else 0.0
         one = Try(problem, weights, random, noise)
         solved = one.run(kept)
@@ -430,10 +413,33 @@ def shorten(problem: Problem, seed: int, seconds: float) -> Iterator[Found]:
             continue
         contradiction, chosen = solved
         found = one.found(contradiction)
-        if best is None or found.length <= best.length:
-            if best is None or found.length < best.length:
+        if length is None or found.length <= length:
+            shorter = length is None or found.length < length
+            best, plan, length = found.outline, chosen, found.length
+            if shorter:
                 yield found
-            best, plan = found, chosen
+
+
+def plan_of(outline: Outline) -> list[Choice]:
+    """Return what is supposed in an outline."""
+    return [
+        Choice(_NUMBER[tuple(map(int, digits))], signs, plan_of(entry["then"]))
+        for entry in outline
+        if isinstance(entry, dict)
+        for digits, signs in [entry["suppose"]]
+    ]
+
+
+def length_of(outline: Outline) -> tuple[int, int]:
+    """Return how many steps an outline has, and how many cases."""
+    steps = cases = 0
+    for entry in outline:
+        steps += 1
+        if isinstance(entry, dict):
+            inner = length_of(entry["then"])
+            steps += inner[0] + len(entry.get("also", ()))
+            cases += inner[1] + 1
+    return steps, cases
 
 
 def shortened(plan: Sequence[Choice], random: Random) -> list[Choice]:

@@ -1,7 +1,7 @@
 """The command line: parse, call, print. What is true is decided in certify/kernel alone.
 
 One module for each group of commands: :mod:`checking`, :mod:`evidence`, :mod:`auditing`,
-:mod:`doubting`, :mod:`building`; what they share is in :mod:`common`.
+:mod:`reading`, :mod:`doubting`, :mod:`building`; what they share is in :mod:`common`.
 """
 
 import os
@@ -14,7 +14,7 @@ from typing import Any
 import click
 
 from certify import __version__
-from certify.cli import auditing, building, checking, doubting, evidence
+from certify.cli import auditing, building, checking, doubting, evidence, reading
 from certify.cli.common import fail
 
 __all__ = ["cli", "main"]
@@ -93,6 +93,7 @@ for command in (
     evidence.show,
     evidence.list_,
     auditing.audit,
+    reading.explain,
     evidence.export,
     checking.replay,
     auditing.spheres,

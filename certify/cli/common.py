@@ -72,6 +72,15 @@ def require_pattern(name: str) -> str:
     return name
 
 
+def require_question(name: str) -> str:
+    """Return the name if it is one of the three questions, else fail."""
+    from certify.kernel.certificate import QUESTIONS
+
+    if name not in QUESTIONS:
+        fail(f"unknown question {name}; it must be one of {', '.join(QUESTIONS)}", code=2)
+    return name
+
+
 def _known(_context: click.Context, _parameter: click.Parameter, value: Any) -> Any:
     return require_pattern(value) if isinstance(value, str) else tuple(map(require_pattern, value))
 

@@ -22,6 +22,7 @@ from certify.cli.common import (
     print_table,
     print_wrapped,
     require_pattern,
+    require_question,
     root_option,
     verdict_line,
 )
@@ -148,12 +149,10 @@ def _export_answer(
     root: Path, name: str, question: str, to: Path, core: bool, plain: bool
 ) -> list[Path]:
     from certify.export import export_answer
-    from certify.kernel.certificate import QUESTIONS
     from certify.kernel.check import check_pattern
 
     pattern = require_pattern(name)
-    if question not in QUESTIONS:
-        fail(f"unknown question {question}; it must be one of {', '.join(QUESTIONS)}", code=2)
+    require_question(question)
     verdict = check_pattern(root, pattern)
     if verdict.fault is not None or verdict.certificate is None:
         fail(verdict_line(verdict), code=1)

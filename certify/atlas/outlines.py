@@ -1,0 +1,132 @@
+"""The shipped outlines of all refutations, and the program that looks for shorter ones.
+
+    python -m certify.atlas.outlines --tries 100 --jobs 2 [15_K.valid ...]
+
+It starts from what is there, prints a table, the longest first, and overwrites outlines.json.
+"""
+
+import argparse
+import json
+from collections.abc import Iterator, Sequence
+from functools import partial
+from pathlib import Path
+from typing import NamedTuple
+
+import click
+
+from certify.atlas.explanation import BadOutline, Explanation, Outline, Step, explain
+from certify.atlas.reasons import Reasons, gather
+from certify.atlas.shorten import Problem, shorten
+from certify.families import of_question
+from certify.kernel.certificate import PATTERN_NAMES, Certificate, No, read_certificate
+from certify.kernel.evidence import Evidence, default_root
+from certify.kernel.triangulation import orientation
+from certify.run import mapping
+from certify.writing import write_file
+
+OUTLINES = Path(__file__).with_name("outlines.json")
+
+TRIES = 3
+"""How often an explanation is looked for where the shipped outline does not fit."""
+
+
+def shipped() -> dict[str, Outline]:
+    """Return the shipped outlines, by names such as 15_K.valid."""
+    outlines: dict[str, Outline] = json.loads(OUTLINES.read_text("utf-8"))
+    return outlines
+
+
+def reasons_of(certificate: Certificate, question: str) -> Reasons:
+    """Return the formula that the certificate's no refutes, as reasons.
+
+    Raises:
+        ValueError: The answer is no no.
+    """
+    answer = certificate.answers[question]
+    if not isinstance(answer, No):
+        raise ValueError(f"{certificate.pattern} {question} is not answered by no")
+    return gather(of_question(question, answer, orientation(certificate.tetrahedra)))
+
+
+def explained(certificate: Certificate, question: str) -> Explanation:
+    """Return an explanation of a refutation: the shipped one, or one that is found on the spot.
+
+    Raises:
+        BadOutline: None is found.
+    """
+    reasons = reasons_of(certificate, question)
+    outline = shipped().get(f"{certificate.pattern}.{question}")
+    try:
+        if outline is not None:
+            return explain(reasons, outline)
+    except BadOutline:  # of another instance, say
+        pass
+    found = [*shorten(Problem(reasons), 1, TRIES, [])]
+    if not found:
+        raise BadOutline(f"no explanation of {certificate.pattern} {question} is found")
+    return explain(reasons, found[-1].outline)
+
+
+# The search.
+
+
+class Row(NamedTuple):
+    """How long one explanation is."""
+
+    name: str
+    steps: int
+    cases: int
+    kinds: int
+    outline: Outline
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Look for shorter outlines, print how long they are, and write them."""
+    parser = argparse.ArgumentParser(prog="python -m certify.atlas.outlines", description=__doc__)
+    parser.add_argument("names", nargs="*", metavar="NAME", help="such as 15_K.valid; default: all")
+    parser.add_argument("--tries", type=int, default=0)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--jobs", type=int, default=1)
+    options = parser.parse_args(arguments)
+    known = shipped() if OUTLINES.exists() else {}
+    names = options.names or [*refutations()]
+    search = partial(_shortened, known, options.seed, options.tries)
+    with mapping(options.jobs) as apply:
+        for row in apply(search, names):
+            known[row.name] = row.outline
+            click.echo(f"{row.name:<18} {row.steps:>4} {row.cases:>3} {row.kinds:>3}")
+            ordered = {name: known[name] for name in refutations() if name in known}
+            write_file(OUTLINES, (json.dumps(ordered, separators=(",", ":")) + "\n").encode())
+
+
+def refutations() -> Iterator[str]:
+    """Yield the names of all refutations that ship."""
+    for pattern in PATTERN_NAMES:
+        for question, answer in _certificate(pattern).answers.items():
+            if isinstance(answer, No):
+                yield f"{pattern}.{question}"
+
+
+def _certificate(pattern: str) -> Certificate:
+    return read_certificate(pattern, Evidence(default_root()).certificate(pattern))
+
+
+def _shortened(known: dict[str, Outline], seed: int, tries: int, name: str) -> Row:
+    pattern, _, question = name.partition(".")
+    reasons = reasons_of(_certificate(pattern), question)
+    outline = known.get(name, [])
+    for found in shorten(Problem(reasons), seed, tries, outline):
+        outline = found.outline
+    explanation = explain(reasons, outline)
+    items = [*explanation.items()]
+    kinds = {item.reason.kind for item in items if isinstance(item, Step)}
+    return Row(name, len(items), len(items) - len(steps_of(items)), len(kinds), outline)
+
+
+def steps_of(items: Sequence[object]) -> list[Step]:
+    """Return the items that are steps."""
+    return [item for item in items if isinstance(item, Step)]
+
+
+if __name__ == "__main__":
+    main()
