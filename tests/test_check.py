@@ -45,6 +45,17 @@ def test_a_rejected_certificate_tells_what_was_read(root: Path) -> None:
     verdict = check_pattern(root, "5_A")
     assert verdict.fault == 'certificates/5_A.json: "format" is missing'
     assert verdict.files == {"certificates/5_A.json": sha256(b"{}").hexdigest()}
+    assert (verdict.boundary, verdict.instances, verdict.answers) == ("", frozenset(), {})
+
+
+def test_a_check_that_breaks_off_rejects(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(check, "shelling", break_off)
+    fault = "certificates/5_A.json: RuntimeError('out of order')"
+    assert check_pattern(root, "5_A").fault == fault
+
+
+def break_off(*_: object) -> None:
+    raise RuntimeError("out of order")
 
 
 # Completeness.
@@ -98,9 +109,6 @@ def test_nothing_is_listed_if_one_is_missing(shipped: Path, verdicts: Verdicts) 
 def test_nothing_is_listed_if_the_replay_breaks_off(
     shipped: Path, verdicts: Verdicts, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def break_off(*_: object) -> None:
-        raise RuntimeError("out of order")
-
     monkeypatch.setattr(check, "replay", break_off)
     found = completeness(shipped, verdicts)
     assert (found.listed, found.fault) == (frozenset(), f"{PROOF}: RuntimeError('out of order')")

@@ -11,6 +11,12 @@ from certify.kernel.evidence import default_root, digest, kernel_digest, kernel_
 KERNEL = Path(evidence.__file__).parent
 
 
+def test_limits() -> None:
+    """They are those of FORMAT.md."""
+    assert evidence.MAX_CERTIFICATE_BYTES == 65_536
+    assert evidence.MAX_PROOF_BYTES == 1_048_576
+
+
 def test_strays(root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """They are named in one order, in whichever order the folder has them."""
     folder = root / "certificates"

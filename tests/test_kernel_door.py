@@ -4,6 +4,7 @@ import json
 import runpy
 import sys
 from dataclasses import replace
+from io import StringIO
 from pathlib import Path
 from typing import Any
 
@@ -130,6 +131,46 @@ def test_the_program_can_be_interrupted(shipped: Path, monkeypatch: pytest.Monke
     with pytest.raises(SystemExit) as ended:
         runpy.run_module("certify.kernel", run_name="__main__")
     assert ended.value.code == 130
+
+
+def ending(monkeypatch: pytest.MonkeyPatch, *arguments: str) -> object:
+    """Return what the program exits with: a code, or a line for standard error."""
+    monkeypatch.setattr(sys, "argv", ["certify.kernel", *arguments])
+    with pytest.raises(SystemExit) as ended:
+        runpy.run_module("certify.kernel", run_name="__main__")
+    return ended.value.code
+
+
+def test_closed_output(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "stdout", None)
+    assert ending(monkeypatch, "--help") == "standard output is closed"
+
+
+class Full(StringIO):
+    """What cannot be written in the end, nor closed."""
+
+    closings = 0
+
+    def flush(self) -> None:
+        raise OSError(28, "No space left on device")
+
+    def close(self) -> None:
+        self.closings += 1
+        raise OSError(28, "No space left on device")
+
+
+def test_output_that_cannot_be_written(monkeypatch: pytest.MonkeyPatch) -> None:
+    full = Full()
+    monkeypatch.setattr(sys, "stdout", full)
+    assert ending(monkeypatch, "--help") == "[Errno 28] No space left on device"
+    assert full.closings == 1
+
+
+def test_a_kernel_that_cannot_be_imported(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "certify.kernel.theorems", None)
+    said = ending(monkeypatch, "--help")
+    assert isinstance(said, str)
+    assert said.startswith("the kernel cannot be imported: ")
 
 
 def test_nothing_is_checked_when_it_is_imported(monkeypatch: pytest.MonkeyPatch) -> None:

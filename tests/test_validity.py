@@ -348,10 +348,13 @@ def test_section_clauses_are_for_sections_that_are_no_discs(
     assert 0 < sum(found) < 3 * len(found)
 
 
-def test_section_clauses_forbid_opposite_signs(hexahedra: Integers) -> None:
-    """No tetrahedra, no disc: all three pairs of facets are concerned."""
+@pytest.mark.parametrize("tetrahedra", [[], [(1, 2, 5, 6), (3, 4, 7, 8)]])
+def test_section_clauses_forbid_opposite_signs(
+    hexahedra: Integers, tetrahedra: list[Simplex]
+) -> None:
+    """No disc, or two of them, is not one: all three pairs of facets are concerned."""
     few = hexahedra[::100]
-    clauses = list(sections([]))
+    clauses = list(sections(tetrahedra))
     forbidden = np.any([opposite_signs(few, axis) for axis in AXES], axis=0)
     assert len(clauses) == 6
     assert (satisfied(clauses, literals(few)) == ~forbidden).all()

@@ -156,6 +156,10 @@ class Problem:
         return 0
 
 
+def _best(scored: list[tuple[float, Choice]]) -> list[Choice]:
+    return [choice for _, choice in sorted(scored, reverse=True)[:8]]
+
+
 Waiting: TypeAlias = tuple[float, int, int, int, Signs, tuple[int, ...]]
 """Cost, serial number, reason, determinant, what it will have, and what that needs."""
 
@@ -171,6 +175,7 @@ class Try:
     weigh: Weigh
     random: Random
     noise: float
+    thrift: float
     events: list[Event] = field(default_factory=list)
 
     def run(self, plan: Iterable[Choice]) -> tuple[int, list[Choice]] | None:
@@ -276,8 +281,9 @@ class Try:
     def _choice(self, state: State) -> Choice | None:
         """Return what to suppose: what fails, as its opposite does; what fails; what tells most."""
         base = state.freedom
-        ends: list[tuple[int, Choice]] = []
-        best, best_score = None, -1.0
+        ends: list[tuple[float, Choice]] = []
+        failing: list[tuple[float, Choice]] = []
+        others: list[tuple[float, Choice]] = []
         places = [k for k, signs in enumerate(state.signs) if signs in SPLITS]
         if self.noise:
             places = self.random.sample(places, (len(places) + 1) // 2)
@@ -289,28 +295,33 @@ class Try:
                     tried[place] = part
                     rounds.append(self.problem.closure(tried, place))
                     gains.append(base - sum(FREEDOM[s] for s in tried))
+                noise = 1 + self.noise * self.random.random()
                 if all(rounds):
-                    ends.append((sum(rounds), Choice(place, pair[0], ())))
-                    continue
-                if any(rounds):
+                    ends.append((-sum(rounds) * noise, Choice(place, pair[0], ())))
+                elif any(rounds):
                     part = 0 if rounds[0] else 1
-                    score = 1e4 * gains[1 - part] / (rounds[part] + 1)
+                    score = gains[1 - part] * noise
+                    failing.append((score, Choice(place, pair[part], ())))
                 else:
                     part = 0 if gains[0] >= gains[1] else 1
                     score = gains[0] * gains[1] + min(gains)
-                score *= 1 + self.noise * self.random.random()
-                if score > best_score:
-                    best, best_score = Choice(place, pair[part], ()), score
+                    others.append((score * noise, Choice(place, pair[part], ())))
         if ends:
-            near = sorted(ends)[:8]
-            return min((choice for _, choice in near), key=lambda c: self._size(state, c))
-        return best
+            return min(_best(ends), key=lambda c: self._size(state, c, both=True))
+        if failing:
+            gain = {choice: score for score, choice in failing}
+            if not self.thrift:
+                return _best(failing)[0]
+            size = {c: self._size(state, c, both=False) for c in _best(failing)}
+            return max(size, key=lambda c: gain[c] / size[c] ** self.thrift)
+        return max(others)[1] if others else None
 
-    def _size(self, state: State, choice: Choice) -> int:
-        """Return how many facts it takes to refute both a supposition and its opposite."""
+    def _size(self, state: State, choice: Choice, both: bool) -> int:
+        """Return how many facts it takes to refute a supposition, or also its opposite."""
         kept = len(self.events)
         ends = []
-        for signs in (choice.signs, state.signs[choice.place] & ~choice.signs):
+        rest = [state.signs[choice.place] & ~choice.signs] if both else []
+        for signs in (choice.signs, *rest):
             inner = state.copy(-1)
             last = self._last(state, choice.place)
             self._note(inner, Event(choice.place, signs, None, last, 0, -1))
@@ -404,10 +415,11 @@ def shorten(problem: Problem, seed: int, tries: int, outline: Outline) -> Iterat
     best, plan = outline, plan_of(outline)
     length = length_of(outline) if outline else None
     for _ in range(tries):
-        weights = Weights(problem, random, best)
-        kept = shortened(plan, random) if random.random() < 0.4 else plan
-        noise = random.choice((0.0, 0.5, 2.0)) if best else 0.0
-        one = Try(problem, weights, random, noise)
+        anew = not best or random.random() < 0.3
+        kept = [] if anew else shortened(plan, random) if random.random() < 0.5 else plan
+        weights = Weights(problem, random, [] if anew else best)
+        noise, thrift = random.choice((0.0, 0.5, 2.0)), random.choice((0.0, 0.3, 1.0))
+        one = Try(problem, weights, random, noise, thrift)
         solved = one.run(kept)
         if solved is None:
             continue

@@ -263,7 +263,9 @@ def in_order(
         place = places.get(item.nodeid, inf)
         function = item.nodeid.partition("[")[0]
         alike[function] += 1
-        return place, known and not calls, known and not of_module, share * alike[function]
+        number = alike[function]
+        share = share * number if share > 0 else share / number
+        return place, known and not calls, known and not of_module, share
 
     return sorted(items, key=key)
 
