@@ -6,6 +6,7 @@ tests already (:class:`Warm`). The others have a copy of a process that knows no
 project: it imports the mutated module and collects the tests anew (:class:`Cold`).
 """
 
+import faulthandler
 import gc
 import json
 import os
@@ -169,6 +170,7 @@ def in_a_copy(run: Callable[[Path], int]) -> tuple[int, Path]:
     code = NOT_TRIED
     try:
         signal.signal(signal.SIGINT, signal.SIG_DFL)
+        faulthandler.disable()
         nowhere = os.open(os.devnull, os.O_RDWR)
         for descriptor in (0, 1, 2):
             os.dup2(nowhere, descriptor)
