@@ -23,9 +23,10 @@ from certify.atlas.explanation import (
     Outline,
     Step,
     explain,
+    without_idle_steps,
 )
 from certify.atlas.outlines import explained, reasons_of, refutations, shipped
-from certify.atlas.reasons import SIGN, Reason, Reasons, Signs
+from certify.atlas.reasons import ANY, SIGN, Reason, Reasons, Signs
 from certify.atlas.shorten import Problem, length_of, shorten
 from certify.atlas.words import account, as_latex, as_markdown, as_text, cycles
 from certify.kernel.certificate import Certificate, No, read_certificate
@@ -33,7 +34,7 @@ from certify.kernel.check import refuted_formula
 from certify.kernel.evidence import Evidence
 from certify.kernel.orientations import Clause, has_sign
 from certify.kernel.refutation import NotRefuted, replay
-from certify.kernel.triangulation import orientation
+from certify.kernel.triangulation import label, orientation
 from tests.commands import CHECKOUT, run
 from tests.geometry import examples
 
@@ -109,6 +110,25 @@ def test_the_length_is_that_of_the_outline(name: str) -> None:
     items = [*explanation(name).items()]
     cases = sum(isinstance(item, Case) for item in items)
     assert (len(items), cases) == length_of(shipped()[name])
+
+
+def test_idle_steps_are_left_out() -> None:
+    """Whatever else is put in front of the shipped outline, it alone remains."""
+    name = "15_K.valid"
+    outline, known = shipped()[name], reasons(name).given
+    mentioned = {entry[1] for entry in outline}
+    now = {
+        r: tuple(known.get(q, (ANY,))[0] for q in r.determinants)
+        for r in reasons(name).reasons.values()
+    }
+    idle = [
+        [reason.name, label(q)]
+        for reason, signs in now.items()
+        for q, before, after in zip(reason.determinants, signs, reason.conclude(signs), strict=True)
+        if after != before and label(q) not in mentioned
+    ]
+    assert idle
+    assert without_idle_steps(reasons(name), [idle[0], *outline]) == outline
 
 
 # Spoiled outlines.

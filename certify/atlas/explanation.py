@@ -8,6 +8,7 @@ lemmas as a proof against its own formula.
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import count
 from typing import Any, TypeAlias
 
 from certify.atlas.reasons import (
@@ -94,6 +95,20 @@ class Explanation:
     def items(self) -> Iterator[Item]:
         """Yield all steps in the order in which they are read."""
         yield from _flat(self.steps)
+
+    def used(self) -> set[int]:
+        """Return the numbers of the steps that others need, with that of the contradiction."""
+        items = [*self.items()]
+        used = {items[-1].number}
+        for item in items:
+            match item:
+                case Step():
+                    used.update(item.uses)
+                case Case():
+                    used.add(item.steps[-1].number)
+                case Mirror():
+                    used.add(item.of)
+        return used
 
 
 def _flat(items: Iterable[Item]) -> Iterator[Item]:
@@ -364,3 +379,34 @@ def explain(reasons: Reasons, outline: Outline) -> Explanation:
     lrat = follower.lrat()
     replay(reasons.formula, lrat)
     return Explanation(dict(sorted(follower.used.items())), steps, lrat)
+
+
+def without_idle_steps(reasons: Reasons, outline: Outline) -> Outline:
+    """Return an outline without the steps that no other step needs.
+
+    Raises:
+        BadOutline: It cannot be followed.
+    """
+    while True:
+        used = explain(reasons, outline).used()
+        shorter = _only(used, outline, count(1))
+        if shorter == outline:
+            return outline
+        outline = shorter
+
+
+def _only(used: set[int], outline: Outline, numbers: Iterator[int]) -> Outline:
+    """Return the entries that are used; they are numbered in the order in which they are shown."""
+    kept: Outline = []
+    for entry in outline:
+        if not isinstance(entry, dict):
+            if next(numbers) in used:
+                kept.append(entry)
+            continue
+        then = _only(used, entry["then"], numbers)
+        needed = next(numbers) in used
+        also = [digits for digits in entry.get("also", ()) if next(numbers) in used]
+        if needed or also:
+            kept.append({"suppose": entry["suppose"], "then": then})
+            kept[-1] |= {"also": also} if also else {}
+    return kept

@@ -14,7 +14,14 @@ from typing import NamedTuple
 
 import click
 
-from certify.atlas.explanation import BadOutline, Explanation, Outline, Step, explain
+from certify.atlas.explanation import (
+    BadOutline,
+    Explanation,
+    Outline,
+    Step,
+    explain,
+    without_idle_steps,
+)
 from certify.atlas.reasons import Reasons, gather
 from certify.atlas.shorten import Problem, shorten
 from certify.families import of_question
@@ -64,7 +71,7 @@ def explained(certificate: Certificate, question: str) -> Explanation:
     found = [*shorten(Problem(reasons), 1, TRIES, [])]
     if not found:
         raise BadOutline(f"no explanation of {certificate.pattern} {question} is found")
-    return explain(reasons, found[-1].outline)
+    return explain(reasons, without_idle_steps(reasons, found[-1].outline))
 
 
 # The search.
@@ -117,6 +124,7 @@ def _shortened(known: dict[str, Outline], seed: int, tries: int, name: str) -> R
     outline = known.get(name, [])
     for found in shorten(Problem(reasons), seed, tries, outline):
         outline = found.outline
+    outline = without_idle_steps(reasons, outline)
     explanation = explain(reasons, outline)
     items = [*explanation.items()]
     kinds = {item.reason.kind for item in items if isinstance(item, Step)}
