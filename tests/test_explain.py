@@ -14,6 +14,7 @@ from typing import Any
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from pysat.solvers import Solver
 
 from certify.atlas.explanation import (
     BadOutline,
@@ -25,8 +26,9 @@ from certify.atlas.explanation import (
     explain,
     without_idle_steps,
 )
-from certify.atlas.outlines import explained, reasons_of, refutations, shipped
-from certify.atlas.reasons import ANY, SIGN, Reason, Reasons, Signs
+from certify.atlas.outlines import explained, reasons_of, refutations
+from certify.atlas.outlines import shipped as outlines
+from certify.atlas.reasons import ANY, SIGN, Reason, Reasons, Signs, literals_for
 from certify.atlas.shorten import Problem, length_of, shorten
 from certify.atlas.words import account, as_latex, as_markdown, as_text, cycles
 from certify.kernel.certificate import Certificate, No, read_certificate
@@ -72,14 +74,14 @@ def formula(name: str) -> tuple[Clause, ...]:
 
 
 def test_every_refutation_has_an_outline() -> None:
-    assert [*shipped()] == NAMES
+    assert [*outlines()] == NAMES
     assert len(NAMES) == 50
 
 
 @every_refutation
 def test_the_kernel_replays_what_an_outline_says(name: str) -> None:
     """Against its own formula; and without its last lemma, or any hint, it does not."""
-    found = explain(reasons(name), shipped()[name])
+    found = explain(reasons(name), outlines()[name])
     replay(formula(name), found.lrat)
     *rest, last = found.lrat.splitlines(keepends=True)
     with pytest.raises(NotRefuted):
@@ -109,13 +111,29 @@ def test_every_step_is_used(name: str) -> None:
 def test_the_length_is_that_of_the_outline(name: str) -> None:
     items = [*explanation(name).items()]
     cases = sum(isinstance(item, Case) for item in items)
-    assert (len(items), cases) == length_of(shipped()[name])
+    assert (len(items), cases) == length_of(outlines()[name])
+
+
+@pytest.mark.parametrize("name", QUICK)
+def test_the_clauses_that_a_step_names_show_its_fact(name: str) -> None:
+    """With what the step uses, and the fact denied, they have no solution."""
+    clauses = dict(enumerate(formula(name), start=1))
+    for step in (item for item in explanation(name).items() if isinstance(item, Step)):
+        used = [c for q, signs in step.before.items() for c in literals_for(q, signs)]
+        for wanted in literals_for(step.fact.determinant, step.fact.signs):
+            denied = [(-literal,) for literal in wanted]
+            known = literals_for(step.fact.determinant, step.fact.signs | step.excluded)
+            own = [clauses[number] for number in step.clauses]
+            with Solver(bootstrap_with=[*own, *used, *known, *denied]) as solver:
+                assert not solver.solve()
+            with Solver(bootstrap_with=[*used, *known, *denied]) as solver:
+                assert solver.solve()
 
 
 def test_idle_steps_are_left_out() -> None:
     """Whatever else is put in front of the shipped outline, it alone remains."""
     name = "15_K.valid"
-    outline, known = shipped()[name], reasons(name).given
+    outline, known = outlines()[name], reasons(name).given
     mentioned = {entry[1] for entry in outline}
     now = {
         r: tuple(known.get(q, (ANY,))[0] for q in r.determinants)
@@ -144,8 +162,8 @@ def places(outline: Outline) -> Iterator[Outline]:
 
 def spoiled(name: str, change: Callable[[Outline], Any]) -> Iterator[Outline]:
     """Yield the outline with one of its parts changed."""
-    for k in range(len([*places(shipped()[name])])):
-        copied = deepcopy(shipped()[name])
+    for k in range(len([*places(outlines()[name])])):
+        copied = deepcopy(outlines()[name])
         change([*places(copied)][k])
         yield copied
 
@@ -178,7 +196,7 @@ def test_a_spoiled_outline_explains_nothing(name: str, change: Callable[[Outline
 @pytest.mark.parametrize("digits", ["12345678", "21345678", "21436587"])
 def test_only_symmetries_of_the_pattern_repeat_a_case(digits: str) -> None:
     """The identity says nothing new; an exchange of 1 and 2 is none; a reflection is none of it."""
-    outline = deepcopy(shipped()["11_AD.valid"])
+    outline = deepcopy(outlines()["11_AD.valid"])
     (case, *_) = (entry for entry in outline if isinstance(entry, dict))
     case["also"] = [digits]
     with pytest.raises(BadOutline):
@@ -277,13 +295,13 @@ def test_text_fits_a_terminal(name: str) -> None:
     assert text.rstrip().splitlines()[0].startswith(name.partition(".")[0])
     numbers = re.findall(r"^ *(\d+)\. ", text, re.MULTILINE)
     assert numbers == [str(k) for k in range(1, len(numbers) + 1)]
-    assert len(numbers) == length_of(shipped()[name])[0]
+    assert len(numbers) == length_of(outlines()[name])[0]
 
 
 @pytest.mark.parametrize("name", QUICK)
 def test_markdown_has_a_line_for_every_step(name: str) -> None:
     text = as_markdown(told(name))
-    assert text.count("**") == 2 * length_of(shipped()[name])[0]
+    assert text.count("**") == 2 * length_of(outlines()[name])[0]
     assert text.count("$") % 2 == 0
 
 
@@ -316,9 +334,25 @@ def test_command(shipped: Path) -> None:
     assert record["lines"][-1]["says"] == "contradiction"
 
 
+def test_the_table_of_lengths(shipped: Path) -> None:
+    code, out, err = run(shipped, "explain", "--all", "--format", "json")
+    assert (code, err) == (0, "")
+    found = json.loads(out)["explanations"]
+    assert len(found) == len(NAMES)
+    assert [own["steps"] for own in found] == sorted((own["steps"] for own in found), reverse=True)
+    for own in found:
+        name = f"{own['pattern']}.{own['question']}"
+        assert own["steps"] == own["cases"] + own["mirrored"] + sum(own["kinds"].values())
+        assert (own["steps"], own["cases"]) == length_of(outlines()[name])
+
+
 @pytest.mark.parametrize(
     ("arguments", "code", "message"),
     [
+        ((), 2, "name a pattern and a question, or else --all"),
+        (("5_A",), 2, "name a pattern and a question, or else --all"),
+        (("5_A", "valid", "--all"), 2, "name a pattern and a question, or else --all"),
+        (("--all", "--format", "latex"), 2, "--all is printed as text or json, not as latex"),
         (("5_A", "valid"), 2, "5_A valid is answered by yes; only a no is explained"),
         (("5_A", "round"), 2, "unknown question round; it must be one of "),
         (("16_A", "valid"), 2, "unknown pattern 16_A; see 'certify list'"),

@@ -58,6 +58,8 @@ class Step:
     """The steps that showed this: 0 for what is given, -k for the k-th open supposition."""
     excluded: Signs
     """The signs that the determinant might still have had, and has not."""
+    clauses: tuple[int, ...]
+    """The numbers of the formula's clauses that the kernel is told to use."""
 
 
 @dataclass(frozen=True)
@@ -178,10 +180,9 @@ class _Follower:
         before, uses = self._needed(reason, place, signs, known)
         fact = Fact(target, signs)
         self.number += 1
-        step = Step(self.number, fact, reason, before, uses, now[place] & ~signs)
-        self._show(step, known)
-        known.add(fact, step.number)
-        return step
+        clauses = self._show(self.number, fact, reason, before, uses, known)
+        known.add(fact, self.number)
+        return Step(self.number, fact, reason, before, uses, now[place] & ~signs, clauses)
 
     def _needed(
         self, reason: Reason, place: int, signs: Signs, known: _Known
@@ -315,21 +316,34 @@ class _Follower:
 
     # Lemmas.
 
-    def _show(self, step: Step, known: _Known) -> None:
-        """Write lemmas that the fact follows from the clauses of the reason and the facts used."""
+    def _show(
+        self,
+        number: int,
+        fact: Fact,
+        reason: Reason,
+        before: Mapping[Simplex, Signs],
+        uses: Iterable[int],
+        known: _Known,
+    ) -> tuple[int, ...]:
+        """Write lemmas that the fact follows from the clauses of the reason and the facts used.
+
+        Return which clauses of the formula they name.
+        """
         reasons = self.reasons
-        numbers = [reasons.exclusive[quadruple] for quadruple in step.reason.determinants]
-        numbers += step.reason.clauses
-        numbers += [shown for number in step.uses for shown in self.of_step.get(number, ())]
-        numbers += [reasons.given[q][1] for q in step.before if q in reasons.given]
+        numbers = [reasons.exclusive[quadruple] for quadruple in reason.determinants]
+        numbers += reason.clauses
+        numbers += [shown for used in uses for shown in self.of_step.get(used, ())]
+        numbers += [reasons.given[q][1] for q in before if q in reasons.given]
         clauses = [*map(self._clause, numbers)]
         escape = tuple(-literal for literal in known.supposed)
-        shown = [
+        written = len(self.lemmas)
+        self.of_step[number] = [
             self._lemma((*clause, *(e for e in escape if e not in clause)), clauses)
-            for clause in literals_for(step.fact.determinant, step.fact.signs)
+            for clause in literals_for(fact.determinant, fact.signs)
             if not set(clause).intersection(known.supposed)  # else it was just supposed
         ]
-        self.of_step[step.number] = shown
+        named = {hint for _, hints in self.lemmas[written:] for hint in hints}
+        return tuple(sorted(hint for hint in named if hint <= len(reasons.formula)))
 
     def _clause(self, number: int) -> tuple[int, Clause]:
         size = len(self.reasons.formula)

@@ -2,11 +2,12 @@
 
     python -m certify.atlas.outlines --tries 100 --jobs 2 [15_K.valid ...]
 
-It starts from what is there, prints a table, the longest first, and overwrites outlines.json.
+It starts from what is there, prints steps and cases, and overwrites outlines.json.
 """
 
 import argparse
 import json
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from functools import partial
 from pathlib import Path
@@ -16,7 +17,9 @@ import click
 
 from certify.atlas.explanation import (
     BadOutline,
+    Case,
     Explanation,
+    Mirror,
     Outline,
     Step,
     explain,
@@ -28,13 +31,32 @@ from certify.families import of_question
 from certify.kernel.certificate import PATTERN_NAMES, Certificate, No, read_certificate
 from certify.kernel.evidence import Evidence, default_root
 from certify.kernel.triangulation import orientation
-from certify.run import mapping
+from certify.run import Report, mapping
 from certify.writing import write_file
 
 OUTLINES = Path(__file__).with_name("outlines.json")
 
 TRIES = 3
 """How often an explanation is looked for where the shipped outline does not fit."""
+
+
+KINDS = ("relation", "circuit", "edge", "section", "polynomial")
+"""The kinds of reasons."""
+
+
+class Length(NamedTuple):
+    """How long an explanation is.
+
+    cases: steps that close a case; mirrored: those that a symmetry makes of such; kinds: all other
+    steps, by the kind of their reason.
+    """
+
+    pattern: str
+    question: str
+    steps: int
+    cases: int
+    mirrored: int
+    kinds: dict[str, int]
 
 
 def shipped() -> dict[str, Outline]:
@@ -74,17 +96,37 @@ def explained(certificate: Certificate, question: str) -> Explanation:
     return explain(reasons, without_idle_steps(reasons, found[-1].outline))
 
 
+def length(pattern: str, question: str, explanation: Explanation) -> Length:
+    """Return how long an explanation is."""
+    items = [*explanation.items()]
+    kinds = Counter(item.reason.kind for item in items if isinstance(item, Step))
+    cases, mirrored = (sum(isinstance(item, own) for item in items) for own in (Case, Mirror))
+    by_kind = {kind: kinds[kind] for kind in KINDS if kinds[kind]}
+    return Length(pattern, question, len(items), cases, mirrored, by_kind)
+
+
+def lengths(certificates: Sequence[Certificate], report: Report | None = None) -> list[Length]:
+    """Return how long the explanations of all refutations are, the longest first.
+
+    Raises:
+        BadOutline: None is found of one of them.
+    """
+    asked = [
+        (certificate, question)
+        for certificate in certificates
+        for question, answer in certificate.answers.items()
+        if isinstance(answer, No)
+    ]
+    found = []
+    for done, (certificate, question) in enumerate(asked, start=1):
+        explanation = explained(certificate, question)
+        found.append(length(certificate.pattern, question, explanation))
+        if report:
+            report("explaining", done, len(asked))
+    return sorted(found, key=lambda own: own.steps, reverse=True)
+
+
 # The search.
-
-
-class Row(NamedTuple):
-    """How long one explanation is."""
-
-    name: str
-    steps: int
-    cases: int
-    kinds: int
-    outline: Outline
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -99,9 +141,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
     names = options.names or [*refutations()]
     search = partial(_shortened, known, options.seed, options.tries)
     with mapping(options.jobs) as apply:
-        for row in apply(search, names):
-            known[row.name] = row.outline
-            click.echo(f"{row.name:<18} {row.steps:>4} {row.cases:>3} {row.kinds:>3}")
+        for name, (outline, own) in zip(names, apply(search, names), strict=True):
+            known[name] = outline
+            click.echo(f"{name:<18} {own.steps:>4} {own.cases:>3}")
             ordered = {name: known[name] for name in refutations() if name in known}
             write_file(OUTLINES, (json.dumps(ordered, separators=(",", ":")) + "\n").encode())
 
@@ -118,22 +160,16 @@ def _certificate(pattern: str) -> Certificate:
     return read_certificate(pattern, Evidence(default_root()).certificate(pattern))
 
 
-def _shortened(known: dict[str, Outline], seed: int, tries: int, name: str) -> Row:
+def _shortened(
+    known: dict[str, Outline], seed: int, tries: int, name: str
+) -> tuple[Outline, Length]:
     pattern, _, question = name.partition(".")
     reasons = reasons_of(_certificate(pattern), question)
     outline = known.get(name, [])
     for found in shorten(Problem(reasons), seed, tries, outline):
         outline = found.outline
     outline = without_idle_steps(reasons, outline)
-    explanation = explain(reasons, outline)
-    items = [*explanation.items()]
-    kinds = {item.reason.kind for item in items if isinstance(item, Step)}
-    return Row(name, len(items), len(items) - len(steps_of(items)), len(kinds), outline)
-
-
-def steps_of(items: Sequence[object]) -> list[Step]:
-    """Return the items that are steps."""
-    return [item for item in items if isinstance(item, Step)]
+    return outline, length(pattern, question, explain(reasons, outline))
 
 
 if __name__ == "__main__":

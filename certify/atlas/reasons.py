@@ -237,5 +237,6 @@ def literals_for(quadruple: Simplex, signs: Signs) -> list[tuple[int, ...]]:
         NEGATIVE + ZERO: [(-positive,)],
         POSITIVE + NEGATIVE: [(positive, negative)],
         0: [()],
+        ANY: [],
     }
     return clauses[signs]

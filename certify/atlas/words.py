@@ -3,6 +3,7 @@
 All four are made from the same lines, and these from what the kernel has replayed.
 """
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from itertools import combinations, product
@@ -18,6 +19,8 @@ from certify.kernel.triangulation import label
 COMPARED = {1: "< 0", 2: "= 0", 3: "<= 0", 4: "> 0", 5: "!= 0", 6: ">= 0"}
 MARKS = {0: "", 1: "-", 2: "0", 3: "<=", 4: "+", 5: "!=", 6: ">=", 7: "?"}
 """Signs -> how they are written under a bracket."""
+FORMULA = re.compile(r"\[\d+\] \S+ 0|\d+\|\d+")
+"""In a reason: a fact, or the name of a Grassmann-Plücker relation."""
 
 
 @dataclass(frozen=True)
@@ -34,7 +37,7 @@ class Line:
 
     depth: in how many cases it is; number: None for the line that opens a case; says: the fact;
     because: the reason; terms: if that is a relation, the whole of it; uses: numbers of earlier
-    lines.
+    lines; clauses: numbers of the kernel's clauses that show the fact.
     """
 
     depth: int
@@ -43,6 +46,7 @@ class Line:
     because: str
     terms: tuple[Term, ...] = ()
     uses: tuple[int, ...] = ()
+    clauses: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -88,7 +92,7 @@ def _lines(items: Sequence[Item], depth: int, faces: frozenset[Simplex]) -> Iter
             case Step():
                 uses = tuple(k for k in item.uses if k > 0)
                 because, terms = _because(item, faces)
-                yield Line(depth, item.number, says(item.fact), because, terms, uses)
+                yield Line(depth, item.number, says(item.fact), because, terms, uses, item.clauses)
             case Case():
                 yield Line(depth, None, says(item.supposed), "suppose")
                 yield from _lines(item.steps, depth + 1, faces)
@@ -134,7 +138,8 @@ def _because(step: Step, faces: frozenset[Simplex]) -> tuple[str, tuple[Term, ..
         case "relation":
             return f"Grassmann-Pluecker {reason.name}", terms_of(reason, step.before)
         case "circuit":
-            return otherwise + _circuit(step, faces), ()
+            five = label(reason.vertices)
+            return f"circuit {five}: {otherwise}{_circuit(step, faces)}", ()
         case "edge":
             edge = label(reason.vertices)
             return f"{otherwise}the Jacobian would not be positive along edge {edge}", ()
@@ -177,7 +182,7 @@ def _circuit(step: Step, faces: frozenset[Simplex]) -> str:
     # Coefficients whose sum is zero have both signs, or none.
     wrong = {_wrong(*sides, faces) for sides in circuits if all(sides)}
     if not wrong:
-        return f"the dependence of {label(step.reason.vertices)} would have one sign only"
+        return "its dependence would have one sign only"
     if len(wrong) == 1:
         return wrong.pop()
     one, other = (
@@ -187,7 +192,7 @@ def _circuit(step: Step, faces: frozenset[Simplex]) -> str:
     ending = " or a vertex be inside the hull" if any("hull" in what for what in wrong) else ""
     if one and other:
         return f"a face with {one} would meet one with {other}{ending}"
-    return f"faces of {label(step.reason.vertices)} would meet{ending}"
+    return f"two faces would meet{ending}"
 
 
 def _sides(vertices: Simplex, signs: Mapping[Simplex, int]) -> tuple[Simplex, Simplex]:
@@ -280,8 +285,9 @@ def as_markdown(told: Account) -> str:
 def as_latex(told: Account) -> str:
     """Return the account as a LaTeX document."""
     title = _escaped(told.title)
-    out = [LATEX_HEAD, rf"\section*{{{title}}}", f"{_escaped(told.assumed)} {LATEX_NOTATION}", ""]
-    out += [", ".join(f"${_tex(fact)}$" for fact in told.given) + ".", "", LATEX_BEGIN]
+    out = [LATEX_HEAD, rf"\section*{{{title}}}", f"{_escaped(told.assumed)} {LATEX_NOTATION}"]
+    out += ["", r"\medskip", ", ".join(f"${_tex(fact)}$" for fact in told.given) + "."]
+    out += ["", LATEX_BEGIN]
     depth = 0
     for line in told.lines:
         out += [LATEX_BEGIN] * (line.depth - depth) + [LATEX_END] * (depth - line.depth)
@@ -297,7 +303,7 @@ def as_latex(told: Account) -> str:
 
 
 LATEX_HEAD = r"""\documentclass[a4paper]{article}
-\usepackage[T1]{fontenc}
+\usepackage[margin=25mm]{geometry}
 \usepackage{amsmath}
 \setlength{\parindent}{0pt}
 \begin{document}
@@ -320,7 +326,9 @@ def _tex(formula: str) -> str:
 
 
 def _words(because: str) -> str:
-    return because.replace("Pluecker", "Plücker")
+    """Return a reason with its formulas, and the names of relations, set as formulas."""
+    set_as = FORMULA.sub(lambda found: f"${_tex(found[0])}$", because)
+    return set_as.replace("Pluecker", "Plücker")
 
 
 def _relation(terms: Sequence[Term]) -> str:

@@ -82,6 +82,8 @@ def require_question(name: str) -> str:
 
 
 def _known(_context: click.Context, _parameter: click.Parameter, value: Any) -> Any:
+    if value is None:
+        return None
     return require_pattern(value) if isinstance(value, str) else tuple(map(require_pattern, value))
 
 

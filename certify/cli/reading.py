@@ -15,6 +15,8 @@ from certify.cli.common import (
     fail,
     pattern_argument,
     print_json,
+    print_table,
+    progress,
     require_question,
     root_option,
     verdict_line,
@@ -23,11 +25,15 @@ from certify.cli.common import (
 
 @click.command(
     epilog=examples(
-        "certify explain 15_K valid", "certify explain 15_A realizable --format latex > 15_A.tex"
+        "certify explain 15_K valid",
+        "certify explain 15_A realizable --format latex > 15_A.tex",
+        "certify explain --all",
     )
 )
-@pattern_argument("pattern")
-@click.argument("question", shell_complete=lambda *_: ["realizable", "convex", "valid"])
+@pattern_argument("pattern", required=False)
+@click.argument(
+    "question", required=False, shell_complete=lambda *_: ["realizable", "convex", "valid"]
+)
 @click.option(
     "--format",
     "form",
@@ -35,29 +41,41 @@ from certify.cli.common import (
     default="text",
     help="What to print (default text).",
 )
+@click.option("--all", "every", is_flag=True, help="How long all explanations of a no are.")
 @root_option
-def explain(pattern: str, question: str, form: str, root: Path | None) -> None:
+def explain(
+    pattern: str | None, question: str | None, form: str, every: bool, root: Path | None
+) -> None:
     """Explain why the answer to a question is no, in steps that a person can follow.
 
     QUESTION is realizable, convex or valid. Each step is a fact about one determinant, with its
     reason. What is printed has been replayed by the kernel, step by step, against its own formula.
     """
     from certify.atlas.explanation import BadOutline
+
+    if every == bool(pattern) or bool(pattern) != bool(question):
+        fail("name a pattern and a question, or else --all", code=2)
+    try:
+        if every:
+            _print_lengths(existing_root(root), form)
+        elif pattern and question:
+            _explain(existing_root(root), pattern, require_question(question), form)
+    except BadOutline as error:
+        fail(str(error), code=1)
+
+
+def _explain(root: Path, pattern: str, question: str, form: str) -> None:
     from certify.atlas.outlines import explained
     from certify.atlas.words import account, as_json, as_latex, as_markdown, as_text
     from certify.kernel.check import check_pattern
 
-    require_question(question)
-    verdict = check_pattern(existing_root(root), pattern)
+    verdict = check_pattern(root, pattern)
     if verdict.fault is not None or verdict.certificate is None:
         fail(verdict_line(verdict), code=1)
     if verdict.answers[question] != "no":
         answer = verdict.answers[question]
         fail(f"{pattern} {question} is answered by {answer}; only a no is explained", code=2)
-    try:
-        explanation = explained(verdict.certificate, question)
-    except BadOutline as error:
-        fail(str(error), code=1)
+    explanation = explained(verdict.certificate, question)
     told = account(explanation, pattern, question, verdict.certificate.tetrahedra)
     if form == "json":
         print_json(as_json(told))
@@ -65,3 +83,29 @@ def explain(pattern: str, question: str, form: str, root: Path | None) -> None:
         texts = {"text": lambda: as_text(told, columns())}
         texts |= {"markdown": lambda: as_markdown(told), "latex": lambda: as_latex(told)}
         click.echo(texts[form]())
+
+
+def _print_lengths(root: Path, form: str) -> None:
+    """Print a table, or an object, of the explanations of all refutations that are accepted."""
+    from certify.atlas.outlines import lengths
+    from certify.run import run
+
+    if form not in ("text", "json"):
+        fail(f"--all is printed as text or json, not as {form}", code=2)
+    with progress() as show:
+        verdicts = run(root, report=show).verdicts
+        accepted = [v.certificate for v in verdicts if v.fault is None and v.certificate]
+        found = lengths(accepted, show)
+    if form == "json":
+        print_json({"explanations": [own._asdict() for own in found]})
+    else:
+        rows = [
+            (
+                f"{own.pattern} {own.question}",
+                own.steps,
+                own.cases,
+                ", ".join(f"{kind} {count}" for kind, count in own.kinds.items()),
+            )
+            for own in found
+        ]
+        print_table(("refutation", "steps", "cases", "other steps by reason"), rows)
