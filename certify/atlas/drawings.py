@@ -1,10 +1,13 @@
 """Pictures of a certificate that the kernel accepted: closed, pulled apart, and its graph."""
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from fractions import Fraction
+from itertools import combinations, product
 from math import sqrt
 from typing import NamedTuple, TypeAlias
 
+from certify.atlas.apart import pulled_apart
 from certify.atlas.layout import layout
 from certify.atlas.picture import (
     Circle,
@@ -17,28 +20,22 @@ from certify.atlas.picture import (
     tetrahedron_kind,
 )
 from certify.atlas.scene import (
-    CUBE,
     HEXAHEDRON_EDGES,
     Face,
-    Number,
-    Spot,
-    apart,
     between,
     edge_kind,
     inner_sides,
     painters_order,
-    piece_faces,
     shell,
-    straight,
     stretches,
-    viewed,
     witness,
 )
+from certify.atlas.space import CUBE, Number, Spot, centre, minus, off_segment, straight, viewed
 from certify.graphs import Tetrahedra, decomposition, edges
 from certify.kernel.certificate import Certificate
 from certify.kernel.cube import TETRAHEDRON_TYPES
-from certify.kernel.hexahedron import BOUNDARY_TYPES, Simplex, boundary_triangles
-from certify.kernel.triangulation import boundary_diagonals, label
+from certify.kernel.hexahedron import BOUNDARY_TYPES, VERTICES, Simplex, boundary_triangles
+from certify.kernel.triangulation import boundary_diagonals, label, triangles
 
 Box: TypeAlias = tuple[float, float, float, float]
 """Left, top, width, height."""
@@ -92,14 +89,6 @@ def _lines(
     return sorted(found, key=lambda line: order.index(line.kind.removesuffix("-hidden")))
 
 
-def _segment_distance(p: Place, a: Place, b: Place) -> float:
-    dx, dy = b[0] - a[0], b[1] - a[1]
-    t = ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / ((dx * dx + dy * dy) or 1.0)
-    t = min(1.0, max(0.0, t))
-    x, y = p[0] - a[0] - t * dx, p[1] - a[1] - t * dy
-    return sqrt(x * x + y * y)
-
-
 _DIRECTIONS = tuple(
     (x / sqrt(x * x + y * y), y / sqrt(x * x + y * y))
     for x, y in (
@@ -110,32 +99,25 @@ _DIRECTIONS = tuple(
 
 
 def _numbers(
-    places: Sequence[Place], lines: Sequence[Line], seen: Sequence[bool], size: float
-) -> list[Mark]:
-    """Return the vertices as dots, and their numbers where there is most room beside them."""
-    middle = (sum(x for x, _ in places) / 8, sum(y for _, y in places) / 8)
-    marks: list[Mark] = []
-    taken: list[Place] = []
-    for vertex, place in enumerate(places):
-        kind = "" if seen[vertex] else "-hidden"
-        marks.append(Circle("vertex" + kind, place, 3))
-        out = (place[0] - middle[0], place[1] - middle[1])
+    places: Mapping[int, Place], lines: Sequence[Line], kind: str, size: float
+) -> list[Label]:
+    """Return the numbers of vertices, each beside its vertex where there is most room."""
+    middle = centre(list(places.values()))
+    labels: list[Label] = []
+    for vertex, place in places.items():
+        taken = [*places.values(), *(label.at for label in labels)]
+        away = minus(place, middle)
+        out = [x / (sqrt(sum(y * y for y in away)) or 1.0) for x in away]
         best, at = -1e9, place
-        for far in (0.9, 1.15):
-            for dx, dy in _DIRECTIONS:
-                spot = (place[0] + far * size * dx, place[1] + far * size * dy)
-                room = [_segment_distance(spot, *line.points) for line in lines]
-                room += [
-                    sqrt((x - spot[0]) ** 2 + (y - spot[1]) ** 2) - size / 2
-                    for x, y in (*taken, *places)
-                ]
-                outwards = (dx * out[0] + dy * out[1]) / (sqrt(out[0] ** 2 + out[1] ** 2) or 1)
-                score = min(*room, 0.8 * size) + 0.12 * size * outwards - 0.2 * size * far
-                if score > best + 1e-9:
-                    best, at = score, spot
-        taken.append(at)
-        marks.append(Label("number" + kind, at, str(vertex + 1)))
-    return marks
+        for (dx, dy), far in product(_DIRECTIONS, (0.85 * size, 1.1 * size)):
+            spot = (place[0] + far * dx, place[1] + far * dy)
+            room = [off_segment(spot, *line.points) for line in lines]
+            room += [off_segment(spot, other, other) - size / 3 for other in taken]
+            liked = min(*room, 0.8 * size) + 0.15 * far * (dx * out[0] + dy * out[1])
+            if liked > best + 1e-6:
+                best, at = liked, spot
+        labels.append(Label(kind, at, str(vertex)))
+    return labels
 
 
 def _closed_marks(
@@ -156,11 +138,14 @@ def _closed_marks(
         for face in painters_order(faces)
     ]
     behind, front = (_lines(ends, faces, frame, hidden) for hidden in (True, False))
-    seen = [
-        any(spot in face.corners for face in faces) and not _covered(spot, faces) for spot in spots
-    ]
-    places = [frame.place(spot) for spot in spots]
-    return [*marks, *behind, *front, *_numbers(places, [*behind, *front], seen, 15)]
+    lines = [*behind, *front]
+    places = {vertex: frame.place(spots[vertex - 1]) for vertex in VERTICES}
+    hidden = {v: "-hidden" * _is_hidden(spots[v - 1], faces) for v in VERTICES}
+    order = sorted(VERTICES, key=lambda v: hidden[v], reverse=True)
+    dots = [Circle("vertex" + hidden[v], places[v], 3) for v in order]
+    numbers = _numbers(places, lines, "number", 15)
+    numbers = [replace(n, kind=n.kind + hidden[int(n.text)]) for n in numbers]
+    return [*marks, *lines, *dots, *numbers]
 
 
 def _ball_marks(spots: Sequence[Spot], tetrahedra: Tetrahedra, box: Box) -> list[Mark]:
@@ -177,7 +162,7 @@ def _cube_marks(diagonals: frozenset[Simplex], box: Box) -> list[Mark]:
     return _closed_marks(spots, boundary, shown, box)
 
 
-def _covered(spot: Spot, faces: Sequence[Face]) -> bool:
+def _is_hidden(spot: Spot, faces: Sequence[Face]) -> bool:
     """Is a point behind a face?"""
     return any(stretch.hidden for stretch in stretches(spot, spot, faces))
 
@@ -196,69 +181,55 @@ def closed(certificate: Certificate) -> Picture:
 
 # Pulled apart.
 
-APART = Fraction(6, 5)
-"""How far each tetrahedron is moved: so many times its distance from the middle."""
+ROOM = 22
+"""How far pieces keep from each other: there are numbers between them."""
 
 
 def _apart_marks(spots: Sequence[Spot], tetrahedra: Tetrahedra, box: Box) -> list[Mark]:
-    """Return the tetrahedra pulled apart, each with the names of its vertices."""
-    pieces = apart(spots, tetrahedra, APART)
-    frame = fitted([spot for piece in pieces for spot in piece], box)
-    faces = piece_faces(pieces)
-    types = [TETRAHEDRON_TYPES[tetrahedron] for tetrahedron in tetrahedra]
-    marks: list[Mark] = [
-        Polygon(
-            tetrahedron_kind(types[face.piece], shade(face.corners)),
-            tuple(map(frame.place, face.corners)),
-        )
-        for face in painters_order(faces)
-    ]
-    ends = [
-        (tuple(tetrahedron[i] for i in pair), piece[pair[0]], piece[pair[1]])
-        for tetrahedron, piece in zip(tetrahedra, pieces, strict=True)
-        for pair in ((0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3))
-    ]
-    lines = _lines(ends, faces, frame, hidden=False)
-    return [*marks, *lines, *_piece_labels(tetrahedra, faces, lines, frame)]
-
-
-_WITHIN = tuple((i / 12, j / 12, (12 - i - j) / 12) for i in range(1, 11) for j in range(1, 12 - i))
-"""Places inside a triangle, as weights of its corners."""
-
-
-def _piece_labels(
-    tetrahedra: Tetrahedra, faces: Sequence[Face], lines: Sequence[Line], frame: Frame
-) -> list[Mark]:
-    """Return the vertices of each piece, where it shows most of itself."""
+    """Return the tetrahedra pulled apart, so that none hides another."""
+    frame, moves = _exploded(spots, tetrahedra, box)
     marks: list[Mark] = []
-    for piece, tetrahedron in enumerate(tetrahedra):
-        best, at = 0.0, None
-        for face in faces:
-            if face.piece != piece:
-                continue
-            corners = [tuple(map(float, corner)) for corner in face.corners]
-            others = [other for other in faces if other.piece != piece]
-            for weights in _WITHIN:
-                spot = tuple(
-                    sum(w * c[i] for w, c in zip(weights, corners, strict=True)) for i in range(3)
-                )
-                x, y = frame.place(spot)
-                room = min(
-                    _segment_distance((x + dx, y), *line.points)
-                    for line in lines
-                    for dx in (-8, 0, 8)
-                )
-                if room > best and not _roughly_covered(spot, others):
-                    best, at = room, (x, y)
-        if at is not None and best > 3:
-            marks.append(Label("piece", at, label(tetrahedron)))
+    for tetrahedron, (x, y) in zip(tetrahedra, moves, strict=True):
+        marks += _piece_marks(spots, tetrahedron, frame._replace(x=frame.x + x, y=frame.y + y))
     return marks
 
 
-def _roughly_covered(spot: Sequence[float], faces: Sequence[Face]) -> bool:
-    """Is a point behind a face, as far as rounded numbers tell?"""
-    exact = tuple(Fraction(x) for x in spot)
-    return _covered(exact, faces)
+def _exploded(spots: Sequence[Spot], tetrahedra: Tetrahedra, box: Box) -> tuple[Frame, list[Place]]:
+    """Return the frame, the same for all pieces, and how far each is moved on the page.
+
+    The gaps between pieces do not scale, so the scale is found in a few rounds.
+    """
+    left, top, width, height = box
+    outlines = [[(float(spots[v - 1][0]), -float(spots[v - 1][1])) for v in t] for t in tetrahedra]
+    xs, ys = zip(*(spot for outline in outlines for spot in outline), strict=True)
+    scale = min(width / (max(xs) - min(xs)), height / (max(ys) - min(ys))) / 2
+    for _ in range(6):
+        on_page = [[(scale * x, scale * y) for x, y in outline] for outline in outlines]
+        pieces = pulled_apart(on_page, ROOM, width / height)
+        fits = min(width / pieces.size()[0], height / pieces.size()[1])
+        if 0.96 < fits <= 1.0:
+            break
+        scale *= fits * (0.99 if fits < 1 else 1)
+    xs, ys = zip(*pieces.moved(), strict=True)
+    x, y = ((min(axis) + max(axis)) / 2 for axis in (xs, ys))
+    return Frame(scale, left + width / 2 - x, top + height / 2 - y), pieces.moves
+
+
+def _piece_marks(spots: Sequence[Spot], tetrahedron: Simplex, frame: Frame) -> list[Mark]:
+    """Return one tetrahedron, its hidden edges too, and its vertices' numbers."""
+    corners = [spots[v - 1] for v in tetrahedron]
+    inner = centre(corners)
+    faces = shell(spots, dict.fromkeys(triangles(tetrahedron), inner))
+    kind = TETRAHEDRON_TYPES[tetrahedron]
+    marks: list[Mark] = [
+        Polygon(tetrahedron_kind(kind, shade(f.corners)), tuple(map(frame.place, f.corners)))
+        for f in faces
+    ]
+    ends = [(edge, spots[edge[0] - 1], spots[edge[1] - 1]) for edge in combinations(tetrahedron, 2)]
+    behind, front = (_lines(ends, faces, frame, hidden) for hidden in (True, False))
+    places = {v: frame.place(spots[v - 1]) for v in tetrahedron}
+    lines = [*behind, *front]
+    return [*marks, *lines, *_numbers(places, lines, "piece", 10)]
 
 
 def pair(certificate: Certificate) -> Picture:
@@ -269,9 +240,9 @@ def pair(certificate: Certificate) -> Picture:
     _question, points = found
     tetrahedra = certificate.tetrahedra
     spots = viewed(points, frozenset(edges(tetrahedra)))
-    marks = _apart_marks(spots, tetrahedra, (20, 20, 420, 420))
-    marks += _ball_marks(spots, tetrahedra, (500, 80, 300, 300))
-    return Picture(840, 460, tuple(marks), certificate.pattern, "")
+    marks = _apart_marks(spots, tetrahedra, (24, 24, 510, 452))
+    marks += _ball_marks(spots, tetrahedra, (590, 100, 300, 300))
+    return Picture(920, 500, tuple(marks), certificate.pattern, "")
 
 
 # The decomposition graph.

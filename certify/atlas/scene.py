@@ -1,27 +1,19 @@
-"""Eight points and their tetrahedra as somebody sees them: what hides what is decided exactly.
+"""What is seen of a triangulated ball, and what hides what: decided exactly.
 
-Everything is a sum, a product or a comparison of integers or fractions. Only the choice where to
-stand is made with rounded numbers, and nothing that is said rests on it. The axes of a view are x
-to the right, y upwards and z towards the viewer, who is so far away that rays are parallel.
+Everything is a sum, a product or a comparison of integers or fractions. The axes are those of
+space.py: the viewer looks against z.
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
-from functools import cache
-from itertools import combinations
-from math import lcm, sqrt
 from typing import NamedTuple, TypeAlias
 
+from certify.atlas.space import Number, Spot, cross, dot, minus
 from certify.kernel.certificate import Certificate, Yes
 from certify.kernel.chirotope import Point
-from certify.kernel.hexahedron import CORNERS, FACETS, VERTICES, Simplex, simplex
+from certify.kernel.hexahedron import FACETS, Simplex, simplex
 from certify.kernel.triangulation import triangles
 
-Number: TypeAlias = int | Fraction
-Spot: TypeAlias = tuple[Number, ...]
-"""A point of a view."""
-
-Matrix: TypeAlias = tuple[tuple[Fraction, ...], ...]
 Interval: TypeAlias = tuple[Fraction, Fraction]
 
 HEXAHEDRON_EDGES = frozenset(
@@ -42,10 +34,6 @@ def witness(certificate: Certificate) -> tuple[str, tuple[Point, ...]] | None:
     return None
 
 
-CUBE: tuple[Point, ...] = tuple(tuple(map(Fraction, CORNERS[vertex])) for vertex in VERTICES)
-"""The template's corners."""
-
-
 def edge_kind(edge: Simplex) -> str:
     """Return what an edge is: of the hexahedron, a diagonal of a facet, or an inner one."""
     if edge in HEXAHEDRON_EDGES:
@@ -53,7 +41,7 @@ def edge_kind(edge: Simplex) -> str:
     return "diagonal" if edge in DIAGONALS else "inner"
 
 
-# Where to stand.
+# What hides what.
 
 
 class Face(NamedTuple):
@@ -63,146 +51,10 @@ class Face(NamedTuple):
     piece: int
 
 
-def _dot(a: Sequence[Number], b: Sequence[Number]) -> Number:
-    return sum(x * y for x, y in zip(a, b, strict=True))
-
-
-def _minus(a: Sequence[Number], b: Sequence[Number]) -> Spot:
-    return tuple(x - y for x, y in zip(a, b, strict=True))
-
-
-def _cross(a: Sequence[Number], b: Sequence[Number]) -> Spot:
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-
-
-def _applied(matrix: Matrix, point: Sequence[Number]) -> Spot:
-    return tuple(_dot(row, point) for row in matrix)
-
-
-def _product(one: Matrix, other: Matrix) -> Matrix:
-    columns = tuple(zip(*other, strict=True))
-    return tuple(tuple(Fraction(_dot(row, c)) for c in columns) for row in one)
-
-
-def _inverse(m: Matrix) -> Matrix:
-    """Return the inverse of a regular 3 x 3 matrix."""
-    rows = (_cross(m[1], m[2]), _cross(m[2], m[0]), _cross(m[0], m[1]))
-    determinant = _dot(m[0], rows[0])
-    return tuple(tuple(Fraction(row[i]) / determinant for row in rows) for i in range(3))
-
-
-def centred(points: Sequence[Point]) -> list[Spot]:
-    """Return the points with their mean at the origin."""
-    middle = [sum(axis) / Fraction(len(points)) for axis in zip(*points, strict=True)]
-    return [_minus(point, middle) for point in points]
-
-
-def _gram(one: Sequence[Spot], other: Sequence[Spot]) -> Matrix:
-    """Return the sum of the products of columns and rows: one^T other."""
-    return tuple(
-        tuple(Fraction(sum(a[i] * b[j] for a, b in zip(one, other, strict=True))) for j in range(3))
-        for i in range(3)
-    )
-
-
-GRAIN = 1 << 10
-"""What the entries of maps are rounded to: 1/GRAIN of the side of the cube."""
-
-
-def like_the_cube(points: Sequence[Point]) -> list[Spot]:
-    """Return the image under the affine map that takes the points nearest to the cube's corners.
-
-    "Nearest" by the sum of squares. The map, once rounded, is what it is: exact, with a positive
-    determinant, so that it keeps planes, sides and volumes' signs. Of points near a plane the
-    nearest map would make a thin thing, so half of the inverse least-squares map is mixed in.
-    """
-    spots = centred(points)
-    corners = centred(CUBE)
-    there = _product(_gram(corners, spots), _inverse(_gram(spots, spots)))
-    rounded = tuple(tuple(Fraction(round(GRAIN * x), GRAIN) for x in row) for row in there)
-    matrix = rounded if _dot(rounded[0], _cross(rounded[1], rounded[2])) > 0 else there
-    return [_applied(matrix, spot) for spot in spots]
-
-
-def _turn(t: Fraction) -> tuple[Fraction, Fraction]:
-    """Return the cosine and sine, both rational, of twice the arc tangent of ``t``."""
-    return (1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)
-
-
-STEPS = (-5, -4, -6, -3, -7, 3, 4, 5, 6, 7, -2, 2)
-"""How far to turn from a look straight at a face: by twice the arc tangent of STEPS/24."""
-
-NODS = (Fraction(1, 6), Fraction(1, 4), Fraction(1, 10))
-
-
-@cache
-def standpoints() -> tuple[Matrix, ...]:
-    """Return rotations to look through: a turn around the upright axis, then a nod."""
-    one, zero = Fraction(1), Fraction(0)
-    turns = []
-    for step in STEPS:
-        c, s = _turn(Fraction(step, 24))
-        turns.append([(c, s), (-s, c), (-c, -s), (s, -c)])
-    return tuple(
-        _product(
-            ((one, zero, zero), (zero, s, c), (zero, -c, s)),
-            ((a, -b, zero), (b, a, zero), (zero, zero, one)),
-        )
-        for c, s in map(_turn, NODS)
-        for quarter in range(4)
-        for a, b in (turn[quarter] for turn in turns)
-    )
-
-
-def whole(spots: Sequence[Spot]) -> list[Spot]:
-    """Return the points, all stretched by their common denominator: integers are faster."""
-    scale = lcm(*(Fraction(x).denominator for spot in spots for x in spot))
-    return [tuple(int(x * scale) for x in spot) for spot in spots]
-
-
-def _distance(p: Sequence[float], a: Sequence[float], b: Sequence[float]) -> float:
-    """Return the distance of a point of the picture from a segment."""
-    dx, dy = b[0] - a[0], b[1] - a[1]
-    t = ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / ((dx * dx + dy * dy) or 1.0)
-    t = min(1.0, max(0.0, t))
-    x, y = p[0] - a[0] - t * dx, p[1] - a[1] - t * dy
-    return sqrt(x * x + y * y)
-
-
-def clearance(spots: Sequence[Spot], edges: Iterable[Simplex]) -> float:
-    """Return how far vertices keep from each other and from edges, as part of the size."""
-    flat = [(float(x), float(y)) for x, y, _ in spots]
-    size: float = max(max(axis) - min(axis) for axis in zip(*flat, strict=True))
-    apart = min(_distance(a, b, b) for a, b in combinations(flat, 2))
-    off = min(
-        _distance(flat[v - 1], flat[a - 1], flat[b - 1])
-        for a, b in edges
-        for v in VERTICES
-        if v not in (a, b)
-    )
-    return min(apart, 2 * off) / size
-
-
-def straight(points: Sequence[Point]) -> list[Spot]:
-    """Return the points of a cube from where cubes are mostly drawn."""
-    return whole([_applied(standpoints()[0], spot) for spot in centred(points)])
-
-
-def viewed(points: Sequence[Point], edges: frozenset[Simplex]) -> list[Spot]:
-    """Return the points as they are seen from where they and the edges are best told apart."""
-    spots = like_the_cube(points)
-    views = [[_applied(turn, spot) for spot in spots] for turn in standpoints()]
-    scores = [round(clearance(view, edges), 3) for view in views]
-    return whole(views[scores.index(max(scores))])
-
-
-# What hides what.
-
-
 def outside(a: Spot, b: Spot, c: Spot, inner: Spot) -> tuple[Spot, ...] | None:
     """Return a triangle's corners counterclockwise if its side away from ``inner`` is seen."""
-    area = _cross(_minus(b, a), _minus(c, a))
-    away = _dot(area, _minus(a, inner))
+    area = cross(minus(b, a), minus(c, a))
+    away = dot(area, minus(a, inner))
     if area[2] == 0 or (away > 0) != (area[2] > 0):
         return None
     return (a, b, c) if area[2] > 0 else (a, c, b)
@@ -210,8 +62,8 @@ def outside(a: Spot, b: Spot, c: Spot, inner: Spot) -> tuple[Spot, ...] | None:
 
 def _plane(face: Face) -> tuple[Spot, Number]:
     a, b, c = face.corners[:3]
-    normal = _cross(_minus(b, a), _minus(c, a))
-    return normal, _dot(normal, a)
+    normal = cross(minus(b, a), minus(c, a))
+    return normal, dot(normal, a)
 
 
 def painters_order(faces: Sequence[Face]) -> Iterator[Face]:
@@ -235,7 +87,7 @@ def _split_by(faces: Sequence[Face], k: int) -> tuple[list[Face], list[Face], li
     normal, height = _plane(faces[k])
     behind, level, before = [], [], []
     for face in faces:
-        sides = [_dot(normal, corner) - height for corner in face.corners]
+        sides = [dot(normal, corner) - height for corner in face.corners]
         if all(side == 0 for side in sides):
             level.append(face)
         elif all(side <= 0 for side in sides):
@@ -306,7 +158,7 @@ def _hidden(a: Spot, b: Spot, face: Face) -> Interval | None:
     ):
         return None
     normal, height = _plane(face)
-    conditions = [(height - _dot(normal, a), height - _dot(normal, b))]
+    conditions = [(height - dot(normal, a), height - dot(normal, b))]
     for i, corner in enumerate(corners):
         last = corners[i - 1]
         dx, dy = corner[0] - last[0], corner[1] - last[1]
@@ -357,23 +209,3 @@ def shell(spots: Sequence[Spot], boundary: Mapping[Simplex, Spot]) -> list[Face]
         for (a, b, c), inner in boundary.items()
     )
     return [Face(corners, number) for number, corners in enumerate(filter(None, seen))]
-
-
-def apart(
-    spots: Sequence[Spot], tetrahedra: Sequence[Simplex], by: Fraction
-) -> list[tuple[Spot, ...]]:
-    """Return the corners of each tetrahedron, moved from the centre by a multiple of its distance.
-
-    They meet no more than before: stretched as a whole, each shrinks into its own stretched place.
-    """
-    middle = [sum(axis) / Fraction(len(spots)) for axis in zip(*spots, strict=True)]
-    pieces = []
-    for tetrahedron in tetrahedra:
-        four = [spots[v - 1] for v in tetrahedron]
-        away = [
-            by * (sum(axis) / Fraction(4) - m)
-            for axis, m in zip(zip(*four, strict=True), middle, strict=True)
-        ]
-        pieces.append([tuple(x + y for x, y in zip(spot, away, strict=True)) for spot in four])
-    integral = whole([spot for piece in pieces for spot in piece])
-    return [tuple(integral[i : i + 4]) for i in range(0, len(integral), 4)]
