@@ -1,235 +1,68 @@
-"""Pictures of a certificate that the kernel accepted: closed, pulled apart, and its graph."""
+"""Pictures of a certificate that the kernel accepted: closed, pulled apart, and its graph.
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
-from fractions import Fraction
-from itertools import combinations, product
-from math import sqrt
-from typing import NamedTuple, TypeAlias
+Every function returns a Picture, which picture.py makes SVG of.
+"""
 
-from certify.atlas.apart import pulled_apart
-from certify.atlas.layout import layout
-from certify.atlas.picture import (
-    Circle,
-    Label,
-    Line,
-    Mark,
-    Picture,
-    Place,
-    Polygon,
-    tetrahedron_kind,
+from certify.atlas.marks import (
+    EDGES,
+    JOINED,
+    apart_marks,
+    ball_marks,
+    cube_marks,
+    graph_marks,
+    legend_marks,
+    types_of,
 )
-from certify.atlas.scene import (
-    HEXAHEDRON_EDGES,
-    Face,
-    between,
-    edge_kind,
-    inner_sides,
-    painters_order,
-    shell,
-    stretches,
-    witness,
-)
-from certify.atlas.space import CUBE, Number, Spot, centre, minus, off_segment, straight, viewed
-from certify.graphs import Tetrahedra, decomposition, edges
-from certify.kernel.certificate import Certificate
-from certify.kernel.cube import TETRAHEDRON_TYPES
-from certify.kernel.hexahedron import BOUNDARY_TYPES, VERTICES, Simplex, boundary_triangles
-from certify.kernel.triangulation import boundary_diagonals, label, triangles
+from certify.atlas.picture import Label, Mark, Picture
+from certify.atlas.scene import witness
+from certify.atlas.space import Spot, viewed
+from certify.graphs import Tetrahedra, edges
+from certify.kernel.certificate import Certificate, No
+from certify.kernel.chirotope import Point
+from certify.kernel.hexahedron import BOUNDARY_TYPES
+from certify.kernel.triangulation import boundary_diagonals, label
 
-Box: TypeAlias = tuple[float, float, float, float]
-"""Left, top, width, height."""
+SHOWN = {
+    "valid": ("Points of a valid hexahedron", "", ""),
+    "convex": ("Points in convex position", "valid", ", as there is no valid hexahedron"),
+    "realizable": ("Points that realize it", "convex", ", as none in convex position do"),
+}
+"""Question -> what its points are, the next question, and what is added if that has a no."""
 
 
-class Frame(NamedTuple):
-    """Where spots of a view are on the page: scaled, then moved; y goes down."""
-
-    scale: float
-    x: float
-    y: float
-
-    def place(self, spot: Sequence[Number | float]) -> Place:
-        """Return the place of a spot."""
-        return self.x + self.scale * float(spot[0]), self.y - self.scale * float(spot[1])
+def view(points: tuple[Point, ...], tetrahedra: Tetrahedra) -> list[Spot]:
+    """Return the points as they are seen from where the edges are best told apart."""
+    return viewed(points, frozenset(edges(tetrahedra)))
 
 
-def fitted(spots: Iterable[Sequence[Number | float]], box: Box) -> Frame:
-    """Return the frame in which the spots fill a box: left, top, width, height."""
-    xs, ys, *_ = zip(*spots, strict=True)
-    left, top, width, height = box
-    low_x, high_x, low_y, high_y = (float(f(a)) for a in (xs, ys) for f in (min, max))
-    scale = min(width / (high_x - low_x), height / (high_y - low_y))
-    return Frame(
-        scale,
-        left + width / 2 - scale * (low_x + high_x) / 2,
-        top + height / 2 + scale * (low_y + high_y) / 2,
-    )
+def named(tetrahedra: Tetrahedra) -> str:
+    """Return the tetrahedra in a row."""
+    return " ".join(map(label, tetrahedra))
 
 
-def shade(corners: Sequence[Spot]) -> str:
-    """Return how bright a face is: the light comes from the left, above and behind the viewer."""
-    a, b, c = ([float(x) for x in spot] for spot in corners[:3])
-    u, v = [x - y for x, y in zip(b, a, strict=True)], [x - y for x, y in zip(c, a, strict=True)]
-    n = (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
-    light = (-0.35 * n[0] + 0.65 * n[1] + 0.67 * n[2]) / (sqrt(sum(x * x for x in n)) or 1)
-    return "lit" if light > 0.75 else "plain" if light > 0.4 else "shaded"
-
-
-def _lines(
-    ends: Iterable[tuple[Simplex, Spot, Spot]], faces: Sequence[Face], frame: Frame, hidden: bool
-) -> list[Line]:
-    """Return the parts of edges that are seen, or those that are hidden."""
-    found = []
-    for edge, a, b in ends:
-        for stretch in stretches(a, b, faces):
-            if stretch.hidden == hidden:
-                ab = (frame.place(between(a, b, t)) for t in (stretch.start, stretch.end))
-                found.append(Line(edge_kind(edge) + "-hidden" * hidden, tuple(ab)))
-    order = ("inner", "diagonal", "hexahedron")
-    return sorted(found, key=lambda line: order.index(line.kind.removesuffix("-hidden")))
-
-
-_DIRECTIONS = tuple(
-    (x / sqrt(x * x + y * y), y / sqrt(x * x + y * y))
-    for x, y in (
-        *((2, 0), (2, 1), (1, 1), (1, 2), (0, 2), (-1, 2), (-1, 1), (-2, 1)),
-        *((-2, 0), (-2, -1), (-1, -1), (-1, -2), (0, -2), (1, -2), (1, -1), (2, -1)),
-    )
-)
-
-
-def _numbers(
-    places: Mapping[int, Place], lines: Sequence[Line], kind: str, size: float
-) -> list[Label]:
-    """Return the numbers of vertices, each beside its vertex where there is most room."""
-    middle = centre(list(places.values()))
-    labels: list[Label] = []
-    for vertex, place in places.items():
-        taken = [*places.values(), *(label.at for label in labels)]
-        away = minus(place, middle)
-        out = [x / (sqrt(sum(y * y for y in away)) or 1.0) for x in away]
-        best, at = -1e9, place
-        for (dx, dy), far in product(_DIRECTIONS, (0.85 * size, 1.1 * size)):
-            spot = (place[0] + far * dx, place[1] + far * dy)
-            room = [off_segment(spot, *line.points) for line in lines]
-            room += [off_segment(spot, other, other) - size / 3 for other in taken]
-            liked = min(*room, 0.8 * size) + 0.15 * far * (dx * out[0] + dy * out[1])
-            if liked > best + 1e-6:
-                best, at = liked, spot
-        labels.append(Label(kind, at, str(vertex)))
-    return labels
-
-
-def _closed_marks(
-    spots: Sequence[Spot],
-    boundary: Mapping[Simplex, Spot],
-    shown: Iterable[Simplex],
-    box: Box,
-) -> list[Mark]:
-    """Return a hexahedron as if of glass: what is behind its boundary is seen through.
-
-    boundary: its triangles, each with a point on its inner side; shown: the edges.
-    """
-    frame = fitted(spots, box)
-    faces = shell(spots, boundary)
-    ends = [(edge, spots[edge[0] - 1], spots[edge[1] - 1]) for edge in sorted(shown)]
-    marks: list[Mark] = [
-        Polygon(f"face-{shade(face.corners)}", tuple(map(frame.place, face.corners)))
-        for face in painters_order(faces)
-    ]
-    behind, front = (_lines(ends, faces, frame, hidden) for hidden in (True, False))
-    lines = [*behind, *front]
-    places = {vertex: frame.place(spots[vertex - 1]) for vertex in VERTICES}
-    hidden = {v: "-hidden" * _is_hidden(spots[v - 1], faces) for v in VERTICES}
-    order = sorted(VERTICES, key=lambda v: hidden[v], reverse=True)
-    dots = [Circle("vertex" + hidden[v], places[v], 3) for v in order]
-    numbers = _numbers(places, lines, "number", 15)
-    numbers = [replace(n, kind=n.kind + hidden[int(n.text)]) for n in numbers]
-    return [*marks, *lines, *dots, *numbers]
-
-
-def _ball_marks(spots: Sequence[Spot], tetrahedra: Tetrahedra, box: Box) -> list[Mark]:
-    """Return the closed hexahedron that the tetrahedra fill, with all their edges."""
-    return _closed_marks(spots, inner_sides(spots, tetrahedra), edges(tetrahedra), box)
-
-
-def _cube_marks(diagonals: frozenset[Simplex], box: Box) -> list[Mark]:
-    """Return the template's cube with diagonals on its facets."""
-    shown = HEXAHEDRON_EDGES | diagonals
-    spots = straight(CUBE)
-    middle = tuple(sum(axis) / Fraction(8) for axis in zip(*spots, strict=True))
-    boundary = dict.fromkeys(boundary_triangles(diagonals), middle)
-    return _closed_marks(spots, boundary, shown, box)
-
-
-def _is_hidden(spot: Spot, faces: Sequence[Face]) -> bool:
-    """Is a point behind a face?"""
-    return any(stretch.hidden for stretch in stretches(spot, spot, faces))
+def shown(certificate: Certificate, question: str) -> str:
+    """Return what the points are that answer a question."""
+    says, following, reason = SHOWN[question]
+    refuted = isinstance(certificate.answers.get(following), No)
+    return says + reason * refuted
 
 
 def closed(certificate: Certificate) -> Picture:
-    """Return the hexahedron of a certificate's best points, its inner edges seen through it."""
+    """Return the hexahedron of a certificate's best points, its inner edges seen through it.
+
+    If there are none: the cube with the diagonals, and the words that no points realize it.
+    """
+    tetrahedra, name = certificate.tetrahedra, certificate.pattern
     found = witness(certificate)
     if found is None:
-        return unrealized(certificate)
-    _, points = found
-    tetrahedra = certificate.tetrahedra
-    spots = viewed(points, frozenset(edges(tetrahedra)))
-    marks = _ball_marks(spots, tetrahedra, (24, 24, 192, 192))
-    return Picture(240, 240, tuple(marks), f"{certificate.pattern}, closed", "")
-
-
-# Pulled apart.
-
-ROOM = 22
-"""How far pieces keep from each other: there are numbers between them."""
-
-
-def _apart_marks(spots: Sequence[Spot], tetrahedra: Tetrahedra, box: Box) -> list[Mark]:
-    """Return the tetrahedra pulled apart, so that none hides another."""
-    frame, moves = _exploded(spots, tetrahedra, box)
-    marks: list[Mark] = []
-    for tetrahedron, (x, y) in zip(tetrahedra, moves, strict=True):
-        marks += _piece_marks(spots, tetrahedron, frame._replace(x=frame.x + x, y=frame.y + y))
-    return marks
-
-
-def _exploded(spots: Sequence[Spot], tetrahedra: Tetrahedra, box: Box) -> tuple[Frame, list[Place]]:
-    """Return the frame, the same for all pieces, and how far each is moved on the page.
-
-    The gaps between pieces do not scale, so the scale is found in a few rounds.
-    """
-    left, top, width, height = box
-    outlines = [[(float(spots[v - 1][0]), -float(spots[v - 1][1])) for v in t] for t in tetrahedra]
-    xs, ys = zip(*(spot for outline in outlines for spot in outline), strict=True)
-    scale = min(width / (max(xs) - min(xs)), height / (max(ys) - min(ys))) / 2
-    for _ in range(6):
-        on_page = [[(scale * x, scale * y) for x, y in outline] for outline in outlines]
-        pieces = pulled_apart(on_page, ROOM, width / height)
-        fits = min(width / pieces.size()[0], height / pieces.size()[1])
-        if 0.96 < fits <= 1.0:
-            break
-        scale *= fits * (0.99 if fits < 1 else 1)
-    xs, ys = zip(*pieces.moved(), strict=True)
-    x, y = ((min(axis) + max(axis)) / 2 for axis in (xs, ys))
-    return Frame(scale, left + width / 2 - x, top + height / 2 - y), pieces.moves
-
-
-def _piece_marks(spots: Sequence[Spot], tetrahedron: Simplex, frame: Frame) -> list[Mark]:
-    """Return one tetrahedron, its hidden edges too, and its vertices' numbers."""
-    corners = [spots[v - 1] for v in tetrahedron]
-    inner = centre(corners)
-    faces = shell(spots, dict.fromkeys(triangles(tetrahedron), inner))
-    kind = TETRAHEDRON_TYPES[tetrahedron]
-    marks: list[Mark] = [
-        Polygon(tetrahedron_kind(kind, shade(f.corners)), tuple(map(frame.place, f.corners)))
-        for f in faces
-    ]
-    ends = [(edge, spots[edge[0] - 1], spots[edge[1] - 1]) for edge in combinations(tetrahedron, 2)]
-    behind, front = (_lines(ends, faces, frame, hidden) for hidden in (True, False))
-    places = {v: frame.place(spots[v - 1]) for v in tetrahedron}
-    lines = [*behind, *front]
-    return [*marks, *lines, *_numbers(places, lines, "piece", 10)]
+        marks: list[Mark] = cube_marks(boundary_diagonals(tetrahedra), (34, 24, 172, 172))
+        marks.append(Label("statement", (120, 226), "no points realize it"))
+        says = "No points realize it. The cube shows only the diagonals of its facets."
+    else:
+        question, points = found
+        marks = ball_marks(view(points, tetrahedra), tetrahedra, (24, 24, 192, 192))
+        says = f"{shown(certificate, question)}: the hexahedron with all edges."
+    return Picture(240, 240, tuple(marks), name, says)
 
 
 def pair(certificate: Certificate) -> Picture:
@@ -237,77 +70,47 @@ def pair(certificate: Certificate) -> Picture:
     found = witness(certificate)
     if found is None:
         return unrealized(certificate)
-    _question, points = found
+    question, points = found
     tetrahedra = certificate.tetrahedra
-    spots = viewed(points, frozenset(edges(tetrahedra)))
-    marks = _apart_marks(spots, tetrahedra, (24, 24, 510, 452))
-    marks += _ball_marks(spots, tetrahedra, (590, 100, 300, 300))
-    return Picture(920, 500, tuple(marks), certificate.pattern, "")
-
-
-# The decomposition graph.
-
-NODE = 17
-"""The radius of a node."""
-
-
-def _bowed(a: Place, b: Place, by: float) -> tuple[Place, ...]:
-    """Return an arc from one place to another, which leaves the chord by so much at most."""
-    dx, dy = b[0] - a[0], b[1] - a[1]
-    length = sqrt(dx * dx + dy * dy) or 1.0
-    bend = [4 * k / 12 * (1 - k / 12) * by / length for k in range(13)]
-    return tuple(
-        (a[0] + k / 12 * dx - h * dy, a[1] + k / 12 * dy + h * dx) for k, h in enumerate(bend)
-    )
-
-
-def _graph_marks(tetrahedra: Tetrahedra, box: Box) -> list[Mark]:
-    """Return the edges of the decomposition graph, then its nodes."""
-    nodes = decomposition(tetrahedra)
-    frame = fitted(layout(tetrahedra)[0], box)
-    places = [frame.place(spot) for spot in layout(tetrahedra)[0]]
-    marks: list[Mark] = [Line("plain", (places[a], places[b])) for a, b in nodes.plain]
-    for number, (a, b) in enumerate(nodes.dashed):
-        before = nodes.dashed[:number].count((a, b)) + nodes.plain.count((a, b))
-        marks.append(
-            Line(
-                "dashed",
-                _bowed(places[a], places[b], (0, 16, -16)[before])
-                if before
-                else (places[a], places[b]),
-            )
-        )
-    for place, tetrahedron in zip(places, tetrahedra, strict=True):
-        marks.append(Circle(tetrahedron_kind(TETRAHEDRON_TYPES[tetrahedron], "node"), place, NODE))
-        marks.append(Label("piece", place, label(tetrahedron)))
-    return marks
+    spots = view(points, tetrahedra)
+    marks = [
+        *apart_marks(spots, tetrahedra, (24, 24, 510, 452)),
+        *ball_marks(spots, tetrahedra, (590, 100, 300, 300)),
+        *legend_marks([*types_of(tetrahedra), *EDGES], 24, 512, 880),
+    ]
+    says = f"{shown(certificate, question)}. On the left the tetrahedra {named(tetrahedra)}."
+    return Picture(920, 550, tuple(marks), certificate.pattern, says)
 
 
 def graph(tetrahedra: Tetrahedra) -> Picture:
     """Return the decomposition graph: plain and dashed edges, nodes coloured by type."""
-    return Picture(
-        460, 460, tuple(_graph_marks(tetrahedra, (40, 40, 380, 380))), "Decomposition graph"
-    )
-
-
-# Boundaries.
+    marks = [
+        *graph_marks(tetrahedra, (36, 36, 408, 388)),
+        *legend_marks([*JOINED, *types_of(tetrahedra)], 24, 470, 432),
+    ]
+    title = f"Decomposition graph of {len(tetrahedra)} tetrahedra"
+    return Picture(480, 510, tuple(marks), title, f"The nodes are {named(tetrahedra)}.")
 
 
 def boundary_type(letter: str) -> Picture:
     """Return the representative boundary of a type on the template's cube."""
     diagonals = BOUNDARY_TYPES[letter]
-    names = ", ".join(map(label, sorted(diagonals)))
-    says = f"The cube 12345678 with the diagonals {names}."
-    marks = _cube_marks(diagonals, (24, 24, 192, 192))
-    return Picture(240, 240, tuple(marks), f"Boundary of type {letter}", says)
+    says = f"The cube 12345678 with the diagonals {named(tuple(sorted(diagonals)))}."
+    marks = cube_marks(diagonals, (34, 28, 172, 172))
+    return Picture(240, 230, tuple(marks), f"Boundary of type {letter}", says)
 
 
 def unrealized(certificate: Certificate) -> Picture:
-    """Return, of a pattern without points: its boundary on the cube, its graph, and the words."""
+    """Return, of a pattern without points: its graph, its boundary on the cube, and the words."""
     tetrahedra = certificate.tetrahedra
     marks = [
-        *_graph_marks(tetrahedra, (40, 40, 400, 380)),
-        *_cube_marks(boundary_diagonals(tetrahedra), (540, 90, 240, 240)),
-        Label("statement", (660, 400), "no points realize it"),
+        *graph_marks(tetrahedra, (48, 48, 460, 400)),
+        *cube_marks(boundary_diagonals(tetrahedra), (620, 110, 240, 240)),
+        Label("statement", (740, 410), "no points realize it"),
+        *legend_marks([*JOINED, *types_of(tetrahedra), *EDGES[:2], EDGES[-1]], 24, 512, 880),
     ]
-    return Picture(840, 460, tuple(marks), f"{certificate.pattern}: no points realize it", "")
+    says = (
+        f"No points realize the tetrahedra {named(tetrahedra)}. On the left their decomposition "
+        "graph, on the right the cube with the diagonals of its facets."
+    )
+    return Picture(920, 550, tuple(marks), f"{certificate.pattern}: no points realize it", says)

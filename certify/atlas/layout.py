@@ -12,10 +12,11 @@ from itertools import combinations
 from math import sqrt
 from typing import NamedTuple, TypeAlias
 
-from certify.graphs import Decomposition, Pair, Tetrahedra, decomposition
+from certify.atlas.picture import Place
+from certify.atlas.space import off_segment
+from certify.graphs import Decomposition, Tetrahedra, decomposition
 from certify.kernel.hexahedron import SYMMETRIES, image
 
-Place: TypeAlias = tuple[float, float]
 Permutation: TypeAlias = tuple[int, ...]
 Motion: TypeAlias = tuple[float, float, float, float]
 """A 2 x 2 matrix, row by row."""
@@ -157,15 +158,6 @@ def _cross(a: Place, b: Place, c: Place, d: Place) -> bool:
     return _side(a, b, c) * _side(a, b, d) < 0 and _side(c, d, a) * _side(c, d, b) < 0
 
 
-def off_segment(p: Place, a: Place, b: Place) -> float:
-    """Return the distance of a point from a segment."""
-    dx, dy = b[0] - a[0], b[1] - a[1]
-    t = ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / ((dx * dx + dy * dy) or 1.0)
-    t = min(1.0, max(0.0, t))
-    x, y = p[0] - a[0] - t * dx, p[1] - a[1] - t * dy
-    return sqrt(x * x + y * y)
-
-
 NODE_GAP, EDGE_GAP = 0.8, 0.45
 """Wanted distances of nodes from each other and from edges, where an edge has about length 1."""
 
@@ -236,8 +228,3 @@ def layout(tetrahedra: Tetrahedra) -> tuple[tuple[Place, ...], int]:
             found.append((cost - 0.8 * len(action.motions), len(action.motions), better))
     _, many, places = min(found)
     return tuple(places), many
-
-
-def doubled(graph: Decomposition) -> set[Pair]:
-    """Return the pairs of nodes that a plain and a dashed edge join, or two dashed ones."""
-    return {p for p in graph.dashed if p in graph.plain or graph.dashed.count(p) > 1}

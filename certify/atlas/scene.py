@@ -45,17 +45,19 @@ def edge_kind(edge: Simplex) -> str:
 
 
 class Face(NamedTuple):
-    """A triangle whose outside is seen, corners counterclockwise, and the piece it belongs to."""
+    """A triangle, or a part of one, whose outside is seen; its corners are counterclockwise."""
 
     corners: tuple[Spot, ...]
-    piece: int
 
 
 def outside(a: Spot, b: Spot, c: Spot, inner: Spot) -> tuple[Spot, ...] | None:
-    """Return a triangle's corners counterclockwise if its side away from ``inner`` is seen."""
+    """Return a triangle's corners counterclockwise if its side away from ``inner`` is seen.
+
+    Of a sliver, where ``inner`` is in the plane of the triangle, either side is.
+    """
     area = cross(minus(b, a), minus(c, a))
     away = dot(area, minus(a, inner))
-    if area[2] == 0 or (away > 0) != (area[2] > 0):
+    if area[2] == 0 or away * area[2] < 0:
         return None
     return (a, b, c) if area[2] > 0 else (a, c, b)
 
@@ -162,15 +164,14 @@ def _hidden(a: Spot, b: Spot, face: Face) -> Interval | None:
     for i, corner in enumerate(corners):
         last = corners[i - 1]
         dx, dy = corner[0] - last[0], corner[1] - last[1]
-        conditions.append(
-            tuple(dx * (p[1] - last[1]) - dy * (p[0] - last[0]) for p in (a, b))  # type: ignore[arg-type]
-        )
+        at_a, at_b = (dx * (p[1] - last[1]) - dy * (p[0] - last[0]) for p in (a, b))
+        conditions.append((at_a, at_b))
     low, high = Fraction(0), Fraction(1)
     for at_a, at_b in conditions:
         if max(at_a, at_b) <= 0 and min(at_a, at_b) < 0:
             return None  # outside, or it only touches
         if at_a * at_b < 0:
-            crossing = Fraction(at_a) / (at_a - at_b)
+            crossing = Fraction(at_a) / Fraction(at_a - at_b)
             low, high = (max(low, crossing), high) if at_a < 0 else (low, min(high, crossing))
     if low >= high or conditions[0] == (0, 0):
         return None
@@ -178,18 +179,6 @@ def _hidden(a: Spot, b: Spot, face: Face) -> Interval | None:
 
 
 # What is to be seen.
-
-
-def piece_faces(corners: Sequence[Sequence[Spot]]) -> list[Face]:
-    """Return the faces that are seen of tetrahedra, each given by its four corners."""
-    found = []
-    for piece, four in enumerate(corners):
-        for k in range(4):
-            a, b, c = (spot for i, spot in enumerate(four) if i != k)
-            seen = outside(a, b, c, four[k])
-            if seen:
-                found.append(Face(seen, piece))
-    return found
 
 
 def inner_sides(spots: Sequence[Spot], tetrahedra: Sequence[Simplex]) -> dict[Simplex, Spot]:
@@ -208,4 +197,4 @@ def shell(spots: Sequence[Spot], boundary: Mapping[Simplex, Spot]) -> list[Face]
         outside(spots[a - 1], spots[b - 1], spots[c - 1], inner)
         for (a, b, c), inner in boundary.items()
     )
-    return [Face(corners, number) for number, corners in enumerate(filter(None, seen))]
+    return [Face(corners) for corners in seen if corners]
