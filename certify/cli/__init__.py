@@ -94,6 +94,7 @@ for command in (
     evidence.list_,
     auditing.audit,
     reading.explain,
+    reading.atlas,
     evidence.export,
     checking.replay,
     auditing.spheres,

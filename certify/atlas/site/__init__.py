@@ -1,0 +1,1 @@
+"""The atlas as a static site: records of one run, templates, and a little JavaScript."""
