@@ -167,7 +167,7 @@ def _is_hidden(spot: Spot, faces: Sequence[Face]) -> bool:
 
 # Pulled apart.
 
-ROOM = 22
+ROOM = 25
 """How far pieces keep from each other: there are numbers between them."""
 
 
@@ -263,6 +263,17 @@ def graph_marks(tetrahedra: Tetrahedra, box: Box, dashes: bool = True) -> list[M
         marks.append(Circle(tetrahedron_kind(TETRAHEDRON_TYPES[tetrahedron], "node"), place, NODE))
         marks.append(Label("piece", place, label(tetrahedron)))
     return marks
+
+
+def in_cube_marks(tetrahedron: Simplex, box: Box) -> list[Mark]:
+    """Return one tetrahedron in the template's cube, whose other edges are thin."""
+    spots = straight(CUBE)
+    frame = fitted(spots, box)
+    marks: list[Mark] = [
+        Line("hexahedron-hidden", (frame.place(spots[a - 1]), frame.place(spots[b - 1])))
+        for a, b in sorted(HEXAHEDRON_EDGES - edges([tetrahedron]))
+    ]
+    return [*marks, *_piece_marks(spots, tetrahedron, frame)]
 
 
 # Legends.
