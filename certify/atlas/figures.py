@@ -6,6 +6,7 @@ captions say our names.
 """
 
 from collections.abc import Callable, Sequence
+from itertools import chain, zip_longest
 from pathlib import Path
 from typing import NamedTuple
 
@@ -25,7 +26,7 @@ from certify.atlas.marks import (
 )
 from certify.atlas.picture import Label, Mark, Picture
 from certify.atlas.scene import witness
-from certify.atlas.space import CUBE, straight
+from certify.atlas.space import cube_seen
 from certify.kernel.certificate import PATTERN_NAMES, Certificate
 from certify.kernel.check import Rejected, check_pattern
 from certify.kernel.cube import (
@@ -66,11 +67,15 @@ Draw = Callable[[Box], Cell]
 """Draws a cell into a box."""
 
 
-def _grid(title: str, cells: Sequence[Draw], columns: int, width: float, height: float) -> Picture:
+def _grid(
+    title: str, cells: Sequence[Draw | None], columns: int, width: float, height: float
+) -> Picture:
     """Return the cells in rows, each with its name and a caption."""
     marks: list[Mark] = []
     said = []
     for number, draw in enumerate(cells):
+        if draw is None:
+            continue
         row, column = divmod(number, columns)
         left, top = 20 + column * (width + 24), 20 + row * (height + 56)
         cell = draw((left, top, width, height))
@@ -132,7 +137,7 @@ def _in_the_cube(certificate: Certificate, dashes: bool) -> Draw:
         upper, lower = _halves(box, 0.56)
         tetrahedra = certificate.tetrahedra
         marks = [
-            *apart_marks(straight(CUBE), tetrahedra, _inset(upper, 12)),
+            *apart_marks(cube_seen(), tetrahedra, _inset(upper, 12)),
             *graph_marks(tetrahedra, _inset(lower, 34), dashes),
         ]
         return Cell(marks, certificate.pattern, f"one of {certificate.instances} alike")
@@ -253,10 +258,12 @@ def best(certificate: Certificate) -> str:
 
 
 def _other_fifteens(root: Path) -> Picture:
-    shown = [c for c in accepted(root, 15) if best(c) in {"", "realizable"}]
+    fifteens = accepted(root, 15)
+    without, bent = ([c for c in fifteens if best(c) == kind] for kind in ("", "realizable"))
+    rows = zip_longest(map(_graph, without), map(_solid, bent))
     title = "The triangulations into 15 tetrahedra that are not realizable, or not convex"
-    picture = _grid(title, [_solid(c) if best(c) else _graph(c) for c in shown], 2, 640, 360)
-    return _with_legend(picture, [*types_of(_all(shown)), *EDGES, *JOINED])
+    picture = _grid(title, [*chain.from_iterable(rows)], 2, 640, 360)
+    return _with_legend(picture, [*types_of(_all([*without, *bent])), *EDGES, *JOINED])
 
 
 FIGURES: dict[int, Callable[[Path], Picture]] = {
