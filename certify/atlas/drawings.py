@@ -24,8 +24,8 @@ from certify.kernel.triangulation import boundary_diagonals, label
 
 SHOWN = {
     "valid": ("Points of a valid hexahedron", "", ""),
-    "convex": ("Points in convex position", "valid", ", as there is no valid hexahedron"),
-    "realizable": ("Points that realize it", "convex", ", as none in convex position do"),
+    "convex": ("Points in convex position", "valid", "; there is no valid hexahedron"),
+    "realizable": ("Points that realize it", "convex", "; none in convex position do"),
 }
 """Question -> what its points are, the next question, and what is added if that has a no."""
 

@@ -177,11 +177,14 @@ def ugliness(places: Sequence[Place], graph: Decomposition) -> float:
         if gap < NODE_GAP:
             total += 12 * (1 - gap / NODE_GAP)
     for (a, b), _ in lines:
-        dx, dy = places[a][0] - places[b][0], places[a][1] - places[b][1]
+        one_place, other_place = places[a], places[b]
+        dx, dy = one_place[0] - other_place[0], one_place[1] - other_place[1]
         total += 0.05 * (dx * dx + dy * dy)
+        low = min(one_place[0], other_place[0]) - EDGE_GAP
+        high = max(one_place[0], other_place[0]) + EDGE_GAP
         for k, place in enumerate(places):
-            if k not in {a, b}:
-                gap = off_segment(place, places[a], places[b])
+            if low < place[0] < high and k not in {a, b}:
+                gap = off_segment(place, one_place, other_place)
                 if gap < EDGE_GAP:
                     total += 4 * (1 - gap / EDGE_GAP)
     return total

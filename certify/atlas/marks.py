@@ -29,7 +29,7 @@ from certify.atlas.scene import (
     shell,
     stretches,
 )
-from certify.atlas.space import CUBE, Number, Spot, centre, minus, off_segment, straight
+from certify.atlas.space import Number, Spot, centre, cube_seen, minus, off_segment
 from certify.graphs import Tetrahedra, decomposition, edges
 from certify.kernel.cube import TETRAHEDRON_TYPES
 from certify.kernel.hexahedron import VERTICES, Simplex, boundary_triangles
@@ -97,13 +97,18 @@ _DIRECTIONS = tuple(
 
 
 def _numbers(
-    places: Mapping[int, Place], lines: Sequence[Line], kind: str, size: float
+    places: Mapping[int, Place],
+    lines: Sequence[Line],
+    kind: str,
+    size: float,
+    before: Iterable[Mark] = (),
 ) -> list[Label]:
     """Return the numbers of vertices, each beside its vertex where there is most room."""
     middle = centre(list(places.values()))
+    others = [mark.at for mark in before if isinstance(mark, Label)]
     labels: list[Label] = []
     for vertex, place in places.items():
-        taken = [*places.values(), *(label.at for label in labels)]
+        taken = [*places.values(), *others, *(label.at for label in labels)]
         away = minus(place, middle)
         out = [x / (sqrt(sum(y * y for y in away)) or 1.0) for x in away]
         best, at = -1e9, place
@@ -154,7 +159,7 @@ def ball_marks(spots: Sequence[Spot], tetrahedra: Tetrahedra, box: Box) -> list[
 def cube_marks(diagonals: frozenset[Simplex], box: Box) -> list[Mark]:
     """Return the template's cube with diagonals on its facets."""
     shown = HEXAHEDRON_EDGES | diagonals
-    spots = straight(CUBE)
+    spots = cube_seen()
     middle = tuple(sum(axis) / Fraction(8) for axis in zip(*spots, strict=True))
     boundary = dict.fromkeys(boundary_triangles(diagonals), middle)
     return closed_marks(spots, boundary, shown, box)
@@ -167,7 +172,7 @@ def _is_hidden(spot: Spot, faces: Sequence[Face]) -> bool:
 
 # Pulled apart.
 
-ROOM = 22
+ROOM = 25
 """How far pieces keep from each other: there are numbers between them."""
 
 
@@ -176,7 +181,8 @@ def apart_marks(spots: Sequence[Spot], tetrahedra: Tetrahedra, box: Box) -> list
     frame, moves = _exploded(spots, tetrahedra, box)
     marks: list[Mark] = []
     for tetrahedron, (x, y) in zip(tetrahedra, moves, strict=True):
-        marks += _piece_marks(spots, tetrahedron, frame._replace(x=frame.x + x, y=frame.y + y))
+        moved = frame._replace(x=frame.x + x, y=frame.y + y)
+        marks += _piece_marks(spots, tetrahedron, moved, marks)
     return marks
 
 
@@ -201,8 +207,10 @@ def _exploded(spots: Sequence[Spot], tetrahedra: Tetrahedra, box: Box) -> tuple[
     return Frame(scale, left + width / 2 - x, top + height / 2 - y), pieces.moves
 
 
-def _piece_marks(spots: Sequence[Spot], tetrahedron: Simplex, frame: Frame) -> list[Mark]:
-    """Return one tetrahedron, its hidden edges too, and its vertices' numbers."""
+def _piece_marks(
+    spots: Sequence[Spot], tetrahedron: Simplex, frame: Frame, before: Iterable[Mark] = ()
+) -> list[Mark]:
+    """Return one tetrahedron, its hidden edges too, and its numbers, off those made before."""
     corners = [spots[v - 1] for v in tetrahedron]
     inner = centre(corners)
     faces = shell(spots, dict.fromkeys(triangles(tetrahedron), inner))
@@ -215,7 +223,7 @@ def _piece_marks(spots: Sequence[Spot], tetrahedron: Simplex, frame: Frame) -> l
     behind, front = (_lines(ends, faces, frame, hidden) for hidden in (True, False))
     places = {v: frame.place(spots[v - 1]) for v in tetrahedron}
     lines = [*behind, *front]
-    return [*marks, *lines, *_numbers(places, lines, "piece", 10)]
+    return [*marks, *lines, *_numbers(places, lines, "piece", 10, before)]
 
 
 # The decomposition graph.
@@ -263,6 +271,17 @@ def graph_marks(tetrahedra: Tetrahedra, box: Box, dashes: bool = True) -> list[M
         marks.append(Circle(tetrahedron_kind(TETRAHEDRON_TYPES[tetrahedron], "node"), place, NODE))
         marks.append(Label("piece", place, label(tetrahedron)))
     return marks
+
+
+def in_cube_marks(tetrahedron: Simplex, box: Box) -> list[Mark]:
+    """Return one tetrahedron in the template's cube, whose other edges are thin."""
+    spots = cube_seen()
+    frame = fitted(spots, box)
+    marks: list[Mark] = [
+        Line("hexahedron-hidden", (frame.place(spots[a - 1]), frame.place(spots[b - 1])))
+        for a, b in sorted(HEXAHEDRON_EDGES - edges([tetrahedron]))
+    ]
+    return [*marks, *_piece_marks(spots, tetrahedron, frame)]
 
 
 # Legends.

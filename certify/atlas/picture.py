@@ -64,7 +64,7 @@ class Picture:
 
 # What marks look like.
 
-TYPES = ("corner", "staircase", "slanted", "core", "core diagonal")
+TYPES = ("corner", "staircase", "slanted", "core", "core diagonal", "boundary")
 """The types of tetrahedra, in the order of their colours."""
 
 SHADES = ("lit", "plain", "shaded")
@@ -90,6 +90,9 @@ PALETTE: dict[str, tuple[str, str]] = {
     "core-lit": ("#f5bfae", "#ab6551"),
     "core-plain": ("#e9a590", "#955442"),
     "core-shaded": ("#d68b75", "#7e4536"),
+    "boundary-lit": ("#c9e4e2", "#5b8f8c"),
+    "boundary-plain": ("#b2d6d3", "#4a7b78"),
+    "boundary-shaded": ("#9ac6c2", "#3b6663"),
     "core-diagonal-lit": ("#d9c6ee", "#7f69a3"),
     "core-diagonal-plain": ("#c6afe2", "#6c578f"),
     "core-diagonal-shaded": ("#b298d2", "#5a477a"),

@@ -195,10 +195,10 @@ def viewed(points: Sequence[Point], edges: frozenset[Simplex]) -> list[Spot]:
     return whole([_applied(chosen, spot) for spot in spots])
 
 
-def straight(points: Sequence[Point]) -> list[Spot]:
-    """Return the points of a cube from where cubes are mostly drawn."""
-    turn, _ = standpoints()[0]
-    return whole([_applied(turn, spot) for spot in _centred(points)])
+@cache
+def cube_seen() -> tuple[Spot, ...]:
+    """Return the cube's corners as they are seen from where all its edges are told apart."""
+    return tuple(viewed(CUBE, frozenset(combinations(VERTICES, 2))))
 
 
 def whole(spots: Sequence[Spot]) -> list[Spot]:

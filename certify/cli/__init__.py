@@ -1,7 +1,8 @@
 """The command line: parse, call, print. What is true is decided in certify/kernel alone.
 
 One module for each group of commands: :mod:`checking`, :mod:`evidence`, :mod:`auditing`,
-:mod:`reading`, :mod:`doubting`, :mod:`building`; what they share is in :mod:`common`.
+:mod:`reading`, :mod:`drawing`, :mod:`doubting`, :mod:`building`; what they share is in
+:mod:`common`.
 """
 
 import os
@@ -14,7 +15,7 @@ from typing import Any
 import click
 
 from certify import __version__
-from certify.cli import auditing, building, checking, doubting, evidence, reading
+from certify.cli import auditing, building, checking, doubting, drawing, evidence, reading
 from certify.cli.common import fail
 
 __all__ = ["cli", "main"]
@@ -94,6 +95,7 @@ for command in (
     evidence.list_,
     auditing.audit,
     reading.explain,
+    drawing.draw,
     reading.atlas,
     evidence.export,
     checking.replay,

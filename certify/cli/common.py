@@ -82,9 +82,9 @@ def require_question(name: str) -> str:
 
 
 def _known(_context: click.Context, _parameter: click.Parameter, value: Any) -> Any:
-    if value is None:
-        return None
-    return require_pattern(value) if isinstance(value, str) else tuple(map(require_pattern, value))
+    if value is None or isinstance(value, str):
+        return value and require_pattern(value)
+    return tuple(map(require_pattern, value))
 
 
 def _completed(

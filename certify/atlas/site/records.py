@@ -5,9 +5,11 @@ import re
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
+from certify.atlas.space import like_the_cube
 from certify.atlas.words import cycles
 from certify.audit import Finding
 from certify.graphs import boundary, decomposition, edges
@@ -20,7 +22,7 @@ from certify.kernel.cube import (
     triangulates_finite_precision_cube,
 )
 from certify.kernel.evidence import certificate_file
-from certify.kernel.hexahedron import CORNERS, FACETS, SYMMETRIES, VERTICES, Simplex, image
+from certify.kernel.hexahedron import CORNERS, FACETS, SYMMETRIES, VERTICES, image
 from certify.kernel.triangulation import label, orientation
 from certify.mesh.quality import jacobian_lower_bound, scaled_jacobians
 from certify.paper import printed_status
@@ -174,18 +176,23 @@ class Pattern:
 
 
 def _witnesses(answers: Sequence[Answer]) -> Iterator[dict[str, Any]]:
-    """Yield the points of yeses, each once, as floats: they are looked at, not computed with."""
+    """Yield the points of yeses, each once, as floats: they are looked at, not computed with.
+
+    That is, as they are, and as they look best. The latter come from the former by an affine map,
+    which keeps what meets, and multiplies all Jacobians by the same positive number.
+    """
     shown: dict[tuple[Point, ...], list[str]] = defaultdict(list)
     for own in answers:
         if own.points:
             shown[own.points].append(own.question)
     for points, questions in shown.items():
-        yield {"questions": questions, "points": _centred(points)}
+        best = like_the_cube(points)
+        yield {"questions": questions, "points": _centred(points), "best": _centred(best)}
 
 
-def _centred(points: Sequence[Point]) -> list[list[float]]:
+def _centred(points: Sequence[Sequence[Fraction | int]]) -> list[list[float]]:
     """Return the points about the origin, at most 1 away from it along each axis."""
-    middle = [sum(axis) / len(points) for axis in zip(*points, strict=True)]
+    middle = [Fraction(sum(axis)) / len(points) for axis in zip(*points, strict=True)]
     moved = [[x - m for x, m in zip(point, middle, strict=True)] for point in points]
     largest = max(abs(x) for point in moved for x in point)
     return [[float(f"{float(x / largest):.6g}") for x in point] for point in moved]
@@ -283,10 +290,3 @@ def findings_by_pattern(findings: Iterable[Finding]) -> dict[str, list[Finding]]
         for name in names_in(finding):
             found[name].append(finding)
     return dict(found)
-
-
-def edge_kinds() -> dict[str, set[Simplex]]:
-    """Return the edges of the hexahedron, and the diagonals of its facets."""
-    sides = {tuple(sorted((facet[k], facet[k - 1]))) for facet in FACETS for k in range(len(facet))}
-    diagonals = {tuple(sorted(pair)) for a, b, c, d in FACETS for pair in ((a, c), (b, d))}
-    return {"hexahedron": sides, "diagonal": diagonals}

@@ -14,7 +14,8 @@
    * @property {number[][]} near
    * @property {number[][]} facets
    * @property {Point[]} corners
-   * @property {{questions: string[], points: Point[]}[]} witnesses
+   * @property {{questions: string[], points: Point[], best: Point[]}[]} witnesses the points of the
+   *   yeses: as they are, and as they look best
    */
   const element = (/** @type {string} */ id) => /** @type {HTMLElement} */ (document.getElementById(id));
   const input = (/** @type {string} */ id) => /** @type {HTMLInputElement} */ (element(id));
@@ -206,7 +207,8 @@
   // The drawing.
 
   function draw() {
-    const { points } = scene.witnesses[Number(witness.value)];
+    const own = scene.witnesses[Number(witness.value)];
+    const points = input("true").checked ? own.points : own.best;
     const apart = Number(input("apart").value);
     const [curved, coloured] = [input("curved").checked, input("jacobian").checked];
     const traces = [
@@ -226,7 +228,7 @@
         xaxis: axis,
         yaxis: axis,
         zaxis: axis,
-        aspectmode: input("stretch").checked ? "cube" : "data",
+        aspectmode: "data",
         camera: { eye: { x: 1.1, y: -1.5, z: 0.9 }, projection: { type: "orthographic" } },
         uirevision: "kept",
       },
@@ -312,7 +314,7 @@
   input("curved").addEventListener("change", () => {
     if (!input("curved").checked) input("jacobian").checked = false;
   });
-  for (const id of ["apart", "witness", "curved", "jacobian", "stretch"]) {
+  for (const id of ["apart", "witness", "curved", "jacobian", "true"]) {
     element(id).addEventListener("input", draw);
     element(id).addEventListener("change", draw);
   }

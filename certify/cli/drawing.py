@@ -1,0 +1,134 @@
+"""Commands for readers: draw."""
+
+# ruff: noqa: PLC0415 - the kernel (with it sympy) and matplotlib are imported where needed
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from certify.cli.common import (
+    examples,
+    existing_root,
+    fail,
+    needing,
+    pattern_argument,
+    root_option,
+    verdict_line,
+)
+
+if TYPE_CHECKING:
+    from certify.atlas.picture import Picture
+
+ENDINGS = (".svg", ".pdf", ".png")
+
+
+@click.command(
+    epilog=examples(
+        "certify draw 8_E --to 8_E.svg",
+        "certify draw 15_E --graph --to graph.pdf",
+        "certify draw --boundary c --to c.png",
+        "certify draw --figure 12 --to eights.svg",
+    )
+)
+@pattern_argument("pattern", required=False)
+@click.option(
+    "--to",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    required=True,
+    help="File to write: .svg, or .pdf or .png, which need matplotlib.",
+)
+@click.option("--graph", "as_graph", is_flag=True, help="The decomposition graph of PATTERN.")
+@click.option("--boundary", metavar="LETTER", help="A type of boundary, a to g, on the cube.")
+@click.option(
+    "--figure", type=int, metavar="N", help="A figure of the paper: 2 to 6, 8, 10, 12 to 14."
+)
+@root_option
+def draw(
+    pattern: str | None,
+    to: Path,
+    as_graph: bool,
+    boundary: str | None,
+    figure: int | None,
+    root: Path | None,
+) -> None:
+    """Draw a pattern: its tetrahedra pulled apart, and the closed hexahedron.
+
+    The points are those of the best yes: of a valid hexahedron, or else in convex position, or else
+    any. Nothing is drawn unless the kernel accepts the certificate. Of a pattern that no points
+    realize, the decomposition graph is drawn, with the diagonals on the cube.
+
+    A figure is counted in the order of the paper's source, and made from our certificates.
+    """
+    if sum(wanted is not None for wanted in (pattern, boundary, figure)) != 1:
+        fail(
+            "draw needs one of: a pattern, --boundary, --figure; see 'certify draw --help'", code=2
+        )
+    if as_graph and pattern is None:
+        fail("--graph is for a pattern", code=2)
+    if to.suffix not in ENDINGS:
+        fail(f"{to} does not end in {', '.join(ENDINGS[:-1])} or {ENDINGS[-1]}", code=2)
+    if to.is_dir():
+        fail(f"{to} is a folder", code=2)
+    content = _format(to.suffix)
+    if boundary is not None:
+        name, picture = f"boundary {boundary}", _boundary(boundary)
+    elif figure is not None:
+        name, picture = f"figure {figure}", _figure(figure, existing_root(root))
+    else:
+        name = str(pattern)
+        picture = _pattern(name, existing_root(root), as_graph)
+    from certify.writing import write_file
+
+    write_file(to, content(picture))
+    click.echo(f"{name}: {to}")
+
+
+def _pattern(pattern: str, root: Path, as_graph: bool) -> Picture:
+    from certify.atlas.drawings import graph, pair
+    from certify.kernel.check import check_pattern
+
+    verdict = check_pattern(root, pattern)
+    if verdict.fault is not None or verdict.certificate is None:
+        fail(verdict_line(verdict), code=1)
+    return graph(verdict.certificate.tetrahedra) if as_graph else pair(verdict.certificate)
+
+
+def _boundary(letter: str) -> Picture:
+    from certify.atlas.drawings import boundary_type
+    from certify.kernel.hexahedron import BOUNDARY_TYPES
+
+    if letter not in BOUNDARY_TYPES:
+        fail(f"unknown boundary type {letter}; it must be one of a to g", code=2)
+    return boundary_type(letter)
+
+
+def _figure(number: int, root: Path) -> Picture:
+    from certify.atlas.figures import FIGURES, figure
+    from certify.kernel.check import Rejected
+
+    if number not in FIGURES:
+        known = ", ".join(map(str, FIGURES))
+        fail(f"figure {number} is not drawn; it must be one of {known}", code=2)
+    try:
+        return figure(number, root)
+    except Rejected as error:
+        fail(f"rejected: {error}", code=1)
+
+
+def _format(ending: str) -> Callable[[Picture], bytes]:
+    """Return what makes a file with this ending of a picture; fail if its library is missing."""
+    from certify.atlas.picture import svg
+
+    if ending == ".svg":
+        return lambda picture: svg(picture).encode()
+    from certify.atlas.render import pdf, png
+
+    with needing("atlas"):
+        import_module("matplotlib")
+    return pdf if ending == ".pdf" else png
