@@ -32,7 +32,7 @@ from certify.atlas.words import FORMULA, NOTATION, Account, account
 from certify.audit import Finding, audit, summary
 from certify.kernel.certificate import QUESTIONS
 from certify.kernel.check import Verdict
-from certify.kernel.evidence import Evidence, default_root
+from certify.kernel.evidence import Evidence, certificate_file, default_root
 from certify.kernel.hexahedron import BOUNDARIES, BOUNDARY_TYPES, boundary_letter
 from certify.kernel.theorems import Outcome
 from certify.kernel.triangulation import label
@@ -232,13 +232,14 @@ def _boundaries(patterns: Sequence[Pattern]) -> Iterator[dict[str, Any]]:
 def _evidence(root: Path, outcome: Outcome) -> Iterator[tuple[str, bytes]]:
     """Yield the certificates and proofs, if they are still what was accepted."""
     again = Evidence(root)
-    for result in outcome.results:
-        for name, digest in result.files.items():
-            is_proof = name.startswith("proofs/")
-            read = again.proof(name).encode() if is_proof else again.certificate(result.pattern)
-            if again.files[name] != digest:
-                raise ValueError(f"{name} has changed since it was checked")
-            yield name, read
+    for verdict in outcome.verdicts:
+        yield certificate_file(verdict.pattern), again.certificate(verdict.pattern)
+    digests = {name: own for result in outcome.results for name, own in result.files.items()}
+    for name, digest in digests.items():
+        if name not in again.files:
+            yield name, again.proof(name).encode()
+        if again.files[name] != digest:
+            raise ValueError(f"{name} has changed since it was checked")
 
 
 def _static(patterns: Sequence[Pattern]) -> Iterator[tuple[str, bytes]]:

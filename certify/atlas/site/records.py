@@ -190,10 +190,12 @@ def _witnesses(answers: Sequence[Answer]) -> Iterator[dict[str, Any]]:
         yield {"questions": questions, "points": _centred(points), "best": _centred(best)}
 
 
-def _centred(points: Sequence[Sequence[Fraction | int]]) -> list[list[float]]:
+def _centred(points: Sequence[Sequence[Fraction | float]]) -> list[list[float]]:
     """Return the points about the origin, at most 1 away from it along each axis."""
-    middle = [Fraction(sum(axis)) / len(points) for axis in zip(*points, strict=True)]
-    moved = [[x - m for x, m in zip(point, middle, strict=True)] for point in points]
+    middle = [
+        sum(map(Fraction, axis), Fraction(0)) / len(points) for axis in zip(*points, strict=True)
+    ]
+    moved = [[Fraction(x) - m for x, m in zip(point, middle, strict=True)] for point in points]
     largest = max(abs(x) for point in moved for x in point)
     return [[float(f"{float(x / largest):.6g}") for x in point] for point in moved]
 

@@ -27,6 +27,13 @@
   const GRID = 13;
   /** @type {Set<number>} */
   const hidden = new Set();
+  /** From where it is looked at; plotly tells when the reader turns it. */
+  let camera = {
+    eye: { x: 0.8, y: -1.1, z: 0.65 },
+    center: { x: 0, y: 0, z: 0 },
+    up: { x: 0, y: 0, z: 1 },
+    projection: { type: "orthographic" },
+  };
 
   // Geometry.
 
@@ -97,7 +104,7 @@
   const column = (/** @type {number[][]} */ points, /** @type {number} */ axis) => points.map((p) => p[axis]);
   const digits = (/** @type {number} */ k) => scene.tetrahedra[k].join("");
 
-  function solids(/** @type {Point[]} */ points, /** @type {number} */ apart, /** @type {boolean} */ faint) {
+  function solids(/** @type {Point[]} */ points, /** @type {number} */ apart, /** @type {number} */ opacity) {
     return scene.tetrahedra.map((_, k) => {
       const own = moved(points, k, apart);
       return {
@@ -111,7 +118,7 @@
         j: [1, 1, 2, 2],
         k: [2, 3, 3, 3],
         color: colour(scene.types[k].replace(" ", "-")),
-        opacity: faint ? 0.15 : 1,
+        opacity,
         flatshading: true,
         lighting: { ambient: 0.75, diffuse: 0.5, specular: 0.05 },
         visible: !hidden.has(k),
@@ -212,7 +219,7 @@
     const apart = Number(input("apart").value);
     const [curved, coloured] = [input("curved").checked, input("jacobian").checked];
     const traces = [
-      ...solids(points, apart, curved && !coloured),
+      ...solids(points, apart, coloured ? 0 : curved ? 0.15 : 1),
       ...lines(points, apart),
       numbers(points, apart),
       ...(curved ? facets(points, coloured) : []),
@@ -223,14 +230,12 @@
       margin: { l: 0, r: 0, t: 0, b: 0 },
       paper_bgcolor: "rgba(0,0,0,0)",
       showlegend: false,
-      uirevision: "kept",
       scene: {
         xaxis: axis,
         yaxis: axis,
         zaxis: axis,
         aspectmode: "data",
-        camera: { eye: { x: 1.1, y: -1.5, z: 0.9 }, projection: { type: "orthographic" } },
-        uirevision: "kept",
+        camera,
       },
       hoverlabel: { font: { size: 14 } },
     };
@@ -286,8 +291,7 @@
 
   /** Turn about the vertical, tilt, or come nearer. */
   function turn(/** @type {string} */ how) {
-    const at = /** @type {any} */ (view)._fullLayout.scene._scene.getCamera();
-    const { x, y, z } = at.eye;
+    const { x, y, z } = camera.eye;
     let [around, above, far] = [Math.atan2(y, x), Math.atan2(z, Math.hypot(x, y)), Math.hypot(x, y, z)];
     const step = Math.PI / 12;
     const moves = { left: [-step, 0, 1], right: [step, 0, 1], up: [0, step, 1], down: [0, -step, 1] };
@@ -301,7 +305,8 @@
       y: far * Math.cos(above) * Math.sin(around),
       z: far * Math.sin(above),
     };
-    Plotly.relayout(view, { "scene.camera": { ...at, eye } });
+    camera = { ...camera, eye };
+    draw();
   }
 
   scene.witnesses.forEach((own, k) => witness.add(new Option(own.questions.join(", "), String(k))));
@@ -327,6 +332,9 @@
   }
   window.addEventListener("themechange", draw);
   draw().then(() => {
+    /** @type {any} */ (view).on("plotly_relayout", (/** @type {any} */ event) => {
+      camera = event["scene.camera"] ?? camera;
+    });
     /** @type {any} */ (view).on("plotly_click", (/** @type {any} */ event) => {
       const k = event.points[0]?.data.meta;
       if (typeof k !== "number") return;
