@@ -11,6 +11,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import cache
 from itertools import combinations, product
 from math import gcd
 from typing import TypeAlias
@@ -20,6 +21,7 @@ from certify.kernel.chirotope import (
     QUADRUPLES,
     QUINTUPLES,
     Point,
+    denominators,
     dependence,
     determinant,
     integral,
@@ -37,7 +39,7 @@ NO_FACE = {2: "no edge", 3: "no triangle", 4: "no tetrahedron"}
 TIGHTEST = 3
 """So many determinants are shown as the tightest."""
 
-SMALL = 4
+SMALL = 9
 """Linear functions with coefficients of at most this size are tried first."""
 
 
@@ -76,6 +78,8 @@ class Witness:
     question: str
     tetrahedra: tuple[Simplex, ...]
     points: tuple[Vector, ...]
+    scales: Vector
+    """By what the coordinates x, y and z of the certificate were multiplied."""
     determinants: Mapping[Simplex, int]
     """Those of the tetrahedra, and of the other quadruples that are needed."""
     lines: tuple[Line, ...]
@@ -123,6 +127,7 @@ def demonstrate(tetrahedra: tuple[Simplex, ...], points: Sequence[Point], questi
         question,
         tetrahedra,
         tuple(scaled),
+        tuple(denominators(points)),
         kept,
         chosen_lines(kept, missing_faces(tetrahedra)),
         tuple(supports(scaled)) if question == "convex" else (),
@@ -267,7 +272,7 @@ def chosen_lines(listed: Mapping[Simplex, int], missing: Sequence[Simplex]) -> t
 def supports(points: Sequence[Vector]) -> Iterator[Support]:
     """Yield for each vertex a linear function that is largest there, with small coefficients."""
     for vertex in VERTICES:
-        functions = (*_SMALL_FUNCTIONS, _sum_of_normals(vertex, points))
+        functions = (*_small_functions(), _sum_of_normals(vertex, points))
         found = (_support(vertex, function, points) for function in functions)
         support = next((one for one in found if one.value > one.elsewhere), None)
         if support is None:
@@ -275,10 +280,15 @@ def supports(points: Sequence[Vector]) -> Iterator[Support]:
         yield support
 
 
-_SMALL_FUNCTIONS = sorted(
-    product(range(-SMALL, SMALL + 1), repeat=3),
-    key=lambda function: (sum(map(abs, function)), max(map(abs, function)), function),
-)
+@cache
+def _small_functions() -> tuple[Vector, ...]:
+    """Return the linear functions with small coefficients, the simplest first."""
+    return tuple(
+        sorted(
+            product(range(-SMALL, SMALL + 1), repeat=3),
+            key=lambda function: (sum(map(abs, function)), max(map(abs, function)), function),
+        )
+    )
 
 
 def _support(vertex: int, function: Vector, points: Sequence[Vector]) -> Support:
