@@ -319,7 +319,6 @@ def test_command(shipped: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "code", "message"),
     [
-        (("5_A", "valid"), 2, "5_A valid is answered by yes; only a no is explained"),
         (("5_A", "round"), 2, "unknown question round; it must be one of "),
         (("16_A", "valid"), 2, "unknown pattern 16_A; see 'certify list'"),
         (("15_A", "valid", "--format", "word"), 2, "Invalid value for '--format'"),

@@ -186,7 +186,7 @@ def _require_jacobian(found: Witness) -> None:
         raise BadWitness("the Jacobian has other Bernstein coefficients")
     for index, value in found.bernstein.items():
         if value <= 0:
-            raise BadWitness(f"Bernstein coefficient {label(index)} is not positive")
+            raise BadWitness(f"the 27 Bernstein coefficients are not all positive: {label(index)}")
 
 
 # Determinants.
@@ -272,12 +272,11 @@ def chosen_lines(listed: Mapping[Simplex, int], missing: Sequence[Simplex]) -> t
 def supports(points: Sequence[Vector]) -> Iterator[Support]:
     """Yield for each vertex a linear function that is largest there, with small coefficients."""
     for vertex in VERTICES:
-        functions = (*_small_functions(), _sum_of_normals(vertex, points))
-        found = (_support(vertex, function, points) for function in functions)
-        support = next((one for one in found if one.value > one.elsewhere), None)
-        if support is None:
+        sure = _support(vertex, _sum_of_normals(vertex, points), points)
+        if sure.value <= sure.elsewhere:
             raise BadWitness(f"vertex {vertex} is not an extreme point of the hull")
-        yield support
+        found = (_support(vertex, function, points) for function in _small_functions())
+        yield next((one for one in found if one.value > one.elsewhere), sure)
 
 
 @cache

@@ -8,6 +8,7 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import zip_longest
 from textwrap import wrap
 from typing import Any, TypeAlias
 
@@ -102,7 +103,8 @@ def _circuits(found: Witness) -> Part:
         "affine dependence. Its coefficients are $[bcde]$, $-[acde]$, $[abde]$, $-[abce]$, "
         "$[abcd]$. (Their sum is zero, a check on the arithmetic.) If two tetrahedra met elsewhere "
         "than in a common face, then for some five vertices one tetrahedron would have all with a "
-        "positive coefficient, and one all with a negative. Here it is otherwise for each of the "
+        "positive coefficient, and one all with a negative: this is the lemma that "
+        "certify/kernel/embedding.py proves. Here it is otherwise for each of the "
         "56: some vertices, written in front, have coefficients of one sign, and no tetrahedron "
         "has all of them. A dot is a coefficient that is not needed."
     )
@@ -132,7 +134,7 @@ def _example(found: Witness) -> str:
     """Read the first row aloud, and say what to do with five points in one plane."""
     line = next(line for line in found.lines if line.side)
     values = " and ".join(
-        f"{value} for {vertex}" for vertex, value in found.coefficients(line).items()
+        f"${value}$ for {vertex}" for vertex, value in found.coefficients(line).items()
     )
     text = (
         f"To check the row of {label(line.quintuple)}: the coefficients are {values}, and no "
@@ -301,14 +303,17 @@ def _plain(text: str) -> str:
 
 
 def _text_rows(table: Table, width: int) -> Iterator[str]:
-    """Yield the rows of a table, its cells in columns of one width."""
-    lead = max(len(_plain(head)) for head, _ in table.groups)
-    cell = max(len(_plain(text)) for _, cells in table.groups for text in cells)
-    margin = lead + 2 if lead else 0
-    number = table.columns or max(1, (width - margin) // (cell + 2))
-    for head, row in rows(table, number):
-        body = "  ".join(f"{_plain(text):<{cell}}" for text in row)
-        yield f"  {_plain(head):<{margin}}{body}".rstrip()
+    """Yield the rows of a table, aligned in columns."""
+    number = columns_of(table, width)
+    aligned = [(head, *cells) for head, cells in rows(table, number)]
+    widths = [
+        max(len(_plain(text)) for text in column) for column in zip_longest(*aligned, fillvalue="")
+    ]
+    if not widths[0]:
+        aligned, widths = [row[1:] for row in aligned], widths[1:]
+    for row in aligned:
+        cells = (f"{_plain(text):<{size}}" for text, size in zip(row, widths, strict=False))
+        yield f"  {'  '.join(cells)}".rstrip()
 
 
 def rows(table: Table, number: int) -> Iterator[Group]:
@@ -322,11 +327,11 @@ WIDE = 80
 """Markdown and LaTeX have as many columns as a text of this width."""
 
 
-def columns_of(table: Table) -> int:
-    """Return the number of columns in a format that does not know the width of its page."""
+def columns_of(table: Table, width: int = WIDE) -> int:
+    """Return how many columns of cells a table has on a page of some width."""
     lead = max(len(head) for head, _ in table.groups)
     cell = max(len(_plain(text)) for _, cells in table.groups for text in cells)
-    return table.columns or max(1, (WIDE - lead) // (cell + 2))
+    return table.columns or max(1, (width - lead - 2 * bool(lead)) // (cell + 2))
 
 
 def as_markdown(told: Page) -> str:

@@ -4,7 +4,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import click
 
@@ -20,10 +22,18 @@ from certify.cli.common import (
     verdict_line,
 )
 
+if TYPE_CHECKING:
+    from certify.kernel.certificate import Certificate
+
+Formats: TypeAlias = dict[str, Callable[[], Any]]
+"""Format -> what makes an explanation in it."""
+
 
 @click.command(
     epilog=examples(
-        "certify explain 15_K valid", "certify explain 15_A realizable --format latex > 15_A.tex"
+        "certify explain 15_K valid",
+        "certify explain 15_A realizable --format latex > 15_A.tex",
+        "certify explain 5_A valid",
     )
 )
 @pattern_argument("pattern")
@@ -37,31 +47,64 @@ from certify.cli.common import (
 )
 @root_option
 def explain(pattern: str, question: str, form: str, root: Path | None) -> None:
-    """Explain why the answer to a question is no, in steps that a person can follow.
+    """Explain why the answer to a question is yes or no.
 
-    QUESTION is realizable, convex or valid. Each step is a fact about one determinant, with its
-    reason. What is printed has been replayed by the kernel, step by step, against its own formula.
+    QUESTION is realizable, convex or valid. A no is explained in steps that a person can follow,
+    each a fact about one determinant, with its reason; they have been replayed by the kernel, step
+    by step, against its own formula. A yes is explained by numbers that a person can check: the
+    points, the determinants that matter, and what they show of any five vertices; they have been
+    checked as they stand, after the kernel accepted the points.
     """
-    from certify.atlas.explanation import BadOutline
-    from certify.atlas.outlines import explained
-    from certify.atlas.words import account, as_json, as_latex, as_markdown, as_text
     from certify.kernel.check import check_pattern
 
     require_question(question)
     verdict = check_pattern(existing_root(root), pattern)
     if verdict.fault is not None or verdict.certificate is None:
         fail(verdict_line(verdict), code=1)
-    if verdict.answers[question] != "no":
-        answer = verdict.answers[question]
-        fail(f"{pattern} {question} is answered by {answer}; only a no is explained", code=2)
+    answer = verdict.answers[question]
+    if answer not in _FORMATS:
+        fail(f"{pattern} {question} is answered by {answer}; a yes or a no is explained", code=2)
+    formats = _FORMATS[answer](verdict.certificate, question)
+    if form == "json":
+        print_json(formats["json"]())
+    else:
+        click.echo(formats[form]())
+
+
+def _refutation(certificate: Certificate, question: str) -> Formats:
+    from certify.atlas.explanation import BadOutline
+    from certify.atlas.outlines import explained
+    from certify.atlas.words import account, as_json, as_latex, as_markdown, as_text
+
     try:
-        explanation = explained(verdict.certificate, question)
+        explanation = explained(certificate, question)
     except BadOutline as error:
         fail(str(error), code=1)
-    told = account(explanation, pattern, question, verdict.certificate.tetrahedra)
-    if form == "json":
-        print_json(as_json(told))
-    else:
-        texts = {"text": lambda: as_text(told, columns())}
-        texts |= {"markdown": lambda: as_markdown(told), "latex": lambda: as_latex(told)}
-        click.echo(texts[form]())
+    told = account(explanation, certificate.pattern, question, certificate.tetrahedra)
+    return {
+        "text": lambda: as_text(told, columns()),
+        "markdown": lambda: as_markdown(told),
+        "latex": lambda: as_latex(told),
+        "json": lambda: as_json(told),
+    }
+
+
+def _witness(certificate: Certificate, question: str) -> Formats:
+    from certify.atlas.witness import BadWitness, witness
+    from certify.atlas.witness_words import as_json, as_latex, as_markdown, as_text, page
+
+    try:
+        found = witness(certificate, question)
+    except BadWitness as error:
+        fail(f"{certificate.pattern} {question}: {error}", code=1)
+    told = page(found, certificate.pattern)
+    return {
+        "text": lambda: as_text(told, columns()),
+        "markdown": lambda: as_markdown(told),
+        "latex": lambda: as_latex(told),
+        "json": lambda: as_json(found, certificate.pattern),
+    }
+
+
+_FORMATS = {"yes": _witness, "no": _refutation}
+"""Answer -> what makes its explanation, in each of the formats."""
