@@ -2,14 +2,10 @@
 
 import json
 import re
-import shutil
-import subprocess
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import replace
-from functools import cache
-from itertools import combinations, product
-from pathlib import Path
+from itertools import combinations
 from random import Random
 from typing import Any
 
@@ -31,15 +27,14 @@ from certify.atlas.witness import (
     supports,
     witness,
 )
-from certify.atlas.witness_words import as_json, as_latex, as_markdown, as_text, linear, page
-from certify.kernel.certificate import PATTERN_NAMES, Certificate, Yes, read_certificate
+from certify.atlas.witness_words import as_json, as_text
+from certify.kernel.certificate import Yes
 from certify.kernel.chirotope import QUINTUPLES, chirotope
 from certify.kernel.embedding import NotRealized, require_convex_position, require_realization
-from certify.kernel.evidence import Evidence
 from certify.kernel.jacobian import require_positive_jacobian
 from certify.kernel.triangulation import orientation
 from certify.report import json_text
-from tests.commands import CHECKOUT, five_a, run, write
+from tests.commands import CHECKOUT
 from tests.geometry import (
     CUBE,
     CUBE_TRIANGULATIONS,
@@ -48,150 +43,29 @@ from tests.geometry import (
     PLACEMENTS,
     Placement,
     Tetrahedra,
-    dot,
     exact,
     examples,
-    leibniz,
     near,
     sign,
     simplices,
-    volume,
 )
-
-
-@cache
-def certificate(pattern: str) -> Certificate:
-    return read_certificate(pattern, Evidence(CHECKOUT).certificate(pattern))
-
-
-def answered_by_yes() -> list[tuple[str, str]]:
-    return [
-        (pattern, question)
-        for pattern in PATTERN_NAMES
-        for question, answer in certificate(pattern).answers.items()
-        if isinstance(answer, Yes)
-    ]
-
-
-YES = answered_by_yes()
-SHOWN = [("5_A", "valid"), ("8_E", "valid"), ("13_T", "realizable"), ("15_K", "convex")]
-"""Those that were looked at."""
-
-every_pattern = pytest.mark.parametrize("pattern", [*dict(YES)])
-some = pytest.mark.parametrize(("pattern", "question"), SHOWN, ids=".".join)
-
-
-@cache
-def found(pattern: str, question: str) -> Witness:
-    return witness(certificate(pattern), question)
+from tests.witnesses import (
+    SCHEMA,
+    YES,
+    asked,
+    certificate,
+    coherent,
+    digits,
+    every_pattern,
+    found,
+    require_record,
+    some,
+)
 
 
 def test_there_is_one_for_every_yes() -> None:
     counts = Counter(question for _, question in YES)
     assert counts == {"realizable": 171, "convex": 158, "valid": 143}
-
-
-# The criterion, from the printed JSON alone.
-
-
-def digits(text: str) -> tuple[int, ...]:
-    return tuple(map(int, text))
-
-
-def printed_coefficients(record: Mapping[str, Any], quintuple: str) -> dict[str, int]:
-    """Return the coefficients whose determinants are printed."""
-    rest = [(v, quintuple[:i] + quintuple[i + 1 :], (-1) ** i) for i, v in enumerate(quintuple)]
-    listed = record["determinants"]
-    return {v: factor * listed[q] for v, q, factor in rest if q in listed}
-
-
-def require_record(record: Mapping[str, Any]) -> None:
-    """Fail unless the printed numbers are those of the points, and show the answer."""
-    points = dict(zip("12345678", map(tuple, record["points"]), strict=True))
-    for q, value in record["determinants"].items():
-        assert value == volume(*(points[v] for v in q))
-    for tetrahedron in record["tetrahedra"]:
-        assert record["determinants"][tetrahedron]
-    printed = [line["quintuple"] for line in record["lines"]]
-    assert printed == ["".join(five) for five in combinations("12345678", 5)]
-    for line in record["lines"]:
-        require_line(record, line)
-    if record["question"] == "convex":
-        require_extreme(record)
-    if record["question"] == "valid":
-        require_bernstein(record)
-
-
-def require_line(record: Mapping[str, Any], line: Mapping[str, Any]) -> None:
-    known = printed_coefficients(record, line["quintuple"])
-    needed = line["side"] or line["quintuple"]
-    assert line["coefficients"] == {v: known[v] for v in needed}
-    if not line["side"]:
-        assert line["reason"] == "in one plane"
-        assert [*known.values()] == [0] * 5
-        return
-    assert {sign(known[v]) for v in line["side"]} in ({1}, {-1})
-    assert not any(set(line["side"]) <= set(t) for t in record["tetrahedra"])
-    words = {2: "no edge", 3: "no triangle", 4: "no tetrahedron"}
-    assert line["reason"] == words[len(line["side"])]
-
-
-def require_extreme(record: Mapping[str, Any]) -> None:
-    assert [support["vertex"] for support in record["supports"]] == [*range(1, 9)]
-    for support in record["supports"]:
-        values = [dot(support["function"], point) for point in record["points"]]
-        value = values.pop(support["vertex"] - 1)
-        assert (value, max(values)) == (support["value"], support["elsewhere"])
-        assert value > max(values)
-
-
-def jacobian(points: Placement, at: tuple[int, ...]) -> int:
-    """Return the Jacobian: its columns are sums of edges, weighted with the other coordinates."""
-    columns = []
-    for axis in range(3):
-        column = [0, 0, 0]
-        for corner, point in zip(CUBE, points, strict=True):
-            weight = 2 * corner[axis] - 1
-            for other in {0, 1, 2} - {axis}:
-                weight *= at[other] if corner[other] else 1 - at[other]
-            column = [x + weight * y for x, y in zip(column, point, strict=True)]
-        columns.append(column)
-    return int(leibniz([[*map(int, column)] for column in columns]))  # type: ignore[list-item]
-
-
-def require_bernstein(record: Mapping[str, Any]) -> None:
-    """All are positive, and the polynomial is eight times J at 27 points: so it is everywhere."""
-    assert len(record["bernstein"]) == 27
-    assert min(record["bernstein"].values()) > 0
-    basis = [[(1 - t) ** 2, 2 * t * (1 - t), t**2] for t in range(3)]
-    points = tuple(map(tuple, record["points"]))
-    for u, v, w in product(range(3), repeat=3):
-        value = sum(
-            b * basis[u][i] * basis[v][j] * basis[w][k]
-            for index, b in record["bernstein"].items()
-            for i, j, k in [digits(index)]
-        )
-        assert value == 8 * jacobian(points, (u, v, w))
-
-
-def coherent(record: Mapping[str, Any]) -> bool:
-    """Do any two tetrahedra with a common triangle lie on its two sides?"""
-    points = dict(zip("12345678", map(tuple, record["points"]), strict=True))
-
-    def side(common: set[str], apex: set[str]) -> int:
-        a, b, c, d = (points[v] for v in (*sorted(common), *apex))
-        return sign(volume(a, b, c, d))
-
-    return all(
-        side(s & t, s - t) == -side(s & t, t - s) != 0
-        for s, t in combinations(map(set, record["tetrahedra"]), 2)
-        if len(s & t) == 3
-    )
-
-
-def asked(pattern: str) -> list[str]:
-    """Return the questions that are answered by yes."""
-    return [question for name, question in YES if name == pattern]
 
 
 @every_pattern
@@ -221,52 +95,6 @@ def require_the_points(pattern: str, question: str) -> None:
     assert isinstance(answer, Yes)
     for point, original in zip(shown.points, answer.points, strict=True):
         assert point == tuple(x * s for x, s in zip(original, shown.scales, strict=True))
-
-
-SCHEMA = {
-    "type": "object",
-    "additionalProperties": False,
-    "required": ["title", "pattern", "question", "tetrahedra", "scales", "points", "determinants",
-                 "lines", "whole", "tightest"],
-    "properties": {
-        "title": {"type": "string"},
-        "pattern": {"enum": [*PATTERN_NAMES]},
-        "question": {"enum": ["realizable", "convex", "valid"]},
-        "tetrahedra": {"type": "array", "minItems": 5, "items": {"$ref": "#/$defs/quadruple"}},
-        "scales": {"$ref": "#/$defs/vector"},
-        "points": {"type": "array", "minItems": 8, "maxItems": 8,
-                   "items": {"$ref": "#/$defs/vector"}},
-        "determinants": {"type": "object", "propertyNames": {"$ref": "#/$defs/quadruple"},
-                         "additionalProperties": {"type": "integer"}},
-        "lines": {"type": "array", "minItems": 56, "maxItems": 56, "items": {
-            "type": "object",
-            "additionalProperties": False,
-            "required": ["quintuple", "side", "reason", "coefficients"],
-            "properties": {
-                "quintuple": {"type": "string", "pattern": "^[1-8]{5}$"},
-                "side": {"type": "string", "pattern": "^([1-8]{2,4})?$"},
-                "reason": {"enum": ["no edge", "no triangle", "no tetrahedron", "in one plane"]},
-                "coefficients": {"type": "object", "propertyNames": {"pattern": "^[1-8]$"},
-                                 "additionalProperties": {"type": "integer"}}}}},
-        "whole": {"type": "integer", "minimum": 1},
-        "tightest": {"type": "array", "minItems": 3, "maxItems": 3,
-                     "items": {"$ref": "#/$defs/quadruple"}},
-        "supports": {"type": "array", "minItems": 8, "maxItems": 8, "items": {
-            "type": "object",
-            "additionalProperties": False,
-            "required": ["vertex", "function", "value", "elsewhere"],
-            "properties": {"vertex": {"type": "integer"}, "value": {"type": "integer"},
-                           "function": {"$ref": "#/$defs/vector"},
-                           "elsewhere": {"type": "integer"}}}},
-        "bernstein": {"type": "object", "propertyNames": {"pattern": "^[012]{3}$"},
-                      "additionalProperties": {"type": "integer"}},
-    },
-    "dependentSchemas": {"bernstein": {"properties": {"question": {"const": "valid"}}},
-                         "supports": {"properties": {"question": {"const": "convex"}}}},
-    "$defs": {"quadruple": {"type": "string", "pattern": "^[1-8]{4}$"},
-              "vector": {"type": "array", "minItems": 3, "maxItems": 3,
-                         "items": {"type": "integer"}}},
-}  # fmt: skip
 
 
 # Few determinants.
@@ -494,148 +322,6 @@ def test_faces_that_meet_are_named() -> None:
 def test_only_a_yes_has_a_witness() -> None:
     with pytest.raises(ValueError, match="15_A valid is not answered by yes"):
         witness(certificate("15_A"), "valid")
-
-
-# Words.
-
-
-def told(pattern: str, question: str) -> Any:
-    return page(found(pattern, question), pattern)
-
-
-@every_pattern
-def test_text_fits_a_terminal(pattern: str) -> None:
-    for text in (as_text(told(pattern, question)) for question in asked(pattern)):
-        assert text.isascii()
-        assert not re.search(r"[$`{}\\]", text)
-        assert all(len(line) <= 80 and line == line.rstrip() for line in text.splitlines())
-        assert text.startswith(f"{pattern} ")
-
-
-@every_pattern
-def test_the_text_has_every_number(pattern: str) -> None:
-    """What can be read off it are the determinants, and 56 rows of true signs with their sides."""
-    for question in asked(pattern):
-        require_every_number(pattern, question)
-
-
-def require_every_number(pattern: str, question: str) -> None:
-    shown, text = found(pattern, question), as_text(told(pattern, question))
-    table = text.partition("1. Determinants.")[2].partition("2. Circuits.")[0]
-    read = {digits(q): int(value) for q, value in re.findall(r"\[(\d{4})\] = (-?\d+)", table)}
-    assert read == shown.determinants
-    rows: dict[str, tuple[str, str]] = {}
-    side = ""
-    for line in text.partition("2. Circuits.")[2].splitlines():
-        if re.search(r"\d{5} [-+.0]{5}", line):
-            side = head[1] if (head := re.match(r"  (\d*) ?(?:no|in) ", line)) else side
-            rows |= {
-                five: (marks, side) for five, marks in re.findall(r"(\d{5}) ([-+.0]{5})", line)
-            }
-    record = as_json(shown, pattern)
-    assert len(rows) == 56
-    for five, (marks, side) in rows.items():
-        known = printed_coefficients(record, five)
-        for v, mark in zip(five, marks, strict=True):
-            assert mark == "." or "0+-"[sign(known[v])] == mark
-            assert (mark != ".") == (v in (side or five))
-
-
-@some
-def test_narrow_text(pattern: str, question: str) -> None:
-    assert all(len(line) <= 70 for line in as_text(told(pattern, question), 70).splitlines())
-
-
-@every_pattern
-def test_markdown_and_latex_are_well_formed(pattern: str) -> None:
-    for question in asked(pattern):
-        require_well_formed(pattern, question)
-
-
-def require_well_formed(pattern: str, question: str) -> None:
-    markdown, latex = as_markdown(told(pattern, question)), as_latex(told(pattern, question))
-    assert all(text.count("$") % 2 == 0 for text in (*markdown.splitlines(), *latex.splitlines()))
-    assert markdown.count("`") == 2 * 56
-    for table in re.findall(r"(?:^\|.*\n)+", markdown, re.MULTILINE):
-        assert len({row.count("|") for row in table.splitlines()}) == 1
-    assert latex.count(r"\begin{tabular}") == latex.count(r"\end{tabular}") >= 3
-    assert latex.count("{") == latex.count("}")
-    assert latex.count(r"\texttt{") == 56
-    assert latex.endswith(r"\end{document}")
-
-
-@pytest.mark.skipif(not shutil.which("pdflatex"), reason="pdflatex is not installed")
-@some
-def test_latex_is_one_page(tmp_path: Path, pattern: str, question: str) -> None:
-    (tmp_path / "x.tex").write_text(as_latex(told(pattern, question)))
-    command = ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "x.tex"]
-    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stdout[-2000:]
-    assert "Overfull" not in done.stdout
-    assert "Output written on x.pdf (1 page" in done.stdout
-
-
-def test_linear_functions() -> None:
-    functions = [(1, -2, 3), (-1, 0, 1), (0, -4, -1), (0, 1, 0)]
-    assert [*map(linear, functions)] == ["x - 2y + 3z", "-x + z", "-4y - z", "y"]
-
-
-def test_fractions_are_made_integers(root: Path) -> None:
-    document = five_a()
-    for question in ("realizable", "convex", "valid"):
-        points = [[f"{x}/2", y, f"{z}/3"] for x, y, z in CUBE]
-        document[question] = {"answer": "yes", "points": points}
-    write(root, document)
-    code, out, _ = run(root, "explain", "5_A", "valid")
-    assert code == 0
-    assert "(To make them integers, x, y, z were multiplied by 2, 1, 3.)" in " ".join(out.split())
-    text = as_text(told("5_A", "valid"))
-    assert out.partition("1. Determinants")[2].strip() == text.partition("1. Determinants")[2]
-
-
-# The command.
-
-
-@some
-def test_command(shipped: Path, pattern: str, question: str) -> None:
-    code, out, err = run(shipped, "explain", pattern, question)
-    assert (code, out, err) == (0, as_text(told(pattern, question)) + "\n", "")
-    code, out, err = run(shipped, "explain", pattern, question, "--format", "json")
-    assert (code, err) == (0, "")
-    require_record(json.loads(out))
-    for form, start in (("markdown", f"# {pattern} "), ("latex", r"\documentclass")):
-        code, out, _ = run(shipped, "explain", pattern, question, "--format", form)
-        assert code == 0
-        assert out.startswith(start)
-
-
-def test_open_is_not_explained(root: Path) -> None:
-    write(root, five_a() | {"valid": {"answer": "open"}})
-    code, out, err = run(root, "explain", "5_A", "valid")
-    assert (code, out) == (2, "")
-    assert err == "certify: 5_A valid is answered by open; a yes or a no is explained\n"
-
-
-def test_what_is_rejected_is_not_explained(root: Path) -> None:
-    write(root, five_a() | {"valid": {"answer": "yes", "points": [[0, 0, 0]] * 8}})
-    code, out, err = run(root, "explain", "5_A", "realizable")
-    assert (code, out) == (1, "")
-    assert err.startswith("certify: rejected: certificates/5_A.json: valid: ")
-
-
-NEEDS_SUBDIVISION = [
-    [1, 0, -2], [2, 2, 1], [2, 4, 0], [-1, 5, -2], [-1, -2, 5], [2, 1, 4], [6, 5, 5], [-2, 6, 5],
-]  # fmt: skip
-
-
-def test_what_needs_subdivision_is_refused(root: Path) -> None:
-    """The kernel accepts these points, but the 27 coefficients do not show it."""
-    write(root, five_a() | {"valid": {"answer": "yes", "points": NEEDS_SUBDIVISION}})
-    assert run(root, "check", "5_A")[0] == 0
-    code, out, err = run(root, "explain", "5_A", "valid")
-    assert (code, out) == (1, "")
-    assert err.startswith("certify: 5_A valid: the 27 Bernstein coefficients are not all positive")
-    assert err.count("\n") == 1
 
 
 def test_support_is_what_it_says() -> None:

@@ -241,7 +241,7 @@ def _tightest(found: Witness) -> Part:
 
 def share(found: Witness, quadruple: Simplex) -> str:
     """Return how large a determinant is, compared with six times the whole volume."""
-    return f"{float(Fraction(abs(found.determinants[quadruple]), found.whole)):.1%}"
+    return f"{float(Fraction(100 * abs(found.determinants[quadruple]), found.whole)):.2g}%"
 
 
 # Formats.
