@@ -225,7 +225,7 @@ def test_five_points_in_one_plane() -> None:
     """The only shipped witness with such a line says so."""
     flat = [name for name in YES for line in found(*name).lines if not line.side]
     assert len(flat) == 1
-    text = as_text(page(found(*flat[0]), flat[0][0]))
+    text = as_text(told(*flat[0]))
     assert re.search(r"^  in one plane +\d{5} 00000$", text, re.MULTILINE)
     assert "Five points in one plane need no such vertices" in text
 
