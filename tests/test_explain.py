@@ -353,7 +353,6 @@ def test_the_table_of_lengths(shipped: Path) -> None:
         (("5_A",), 2, "name a pattern and a question, or else --all"),
         (("5_A", "valid", "--all"), 2, "name a pattern and a question, or else --all"),
         (("--all", "--format", "latex"), 2, "--all is printed as text or json, not as latex"),
-        (("5_A", "valid"), 2, "5_A valid is answered by yes; only a no is explained"),
         (("5_A", "round"), 2, "unknown question round; it must be one of "),
         (("16_A", "valid"), 2, "unknown pattern 16_A; see 'certify list'"),
         (("15_A", "valid", "--format", "word"), 2, "Invalid value for '--format'"),

@@ -96,7 +96,7 @@ for command in (
     auditing.audit,
     reading.explain,
     drawing.draw,
-    reading.atlas,
+    drawing.atlas,
     evidence.export,
     checking.replay,
     auditing.spheres,

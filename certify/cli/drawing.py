@@ -1,4 +1,4 @@
-"""Commands for readers: draw."""
+"""Commands that show: draw, atlas."""
 
 # ruff: noqa: PLC0415 - the kernel (with it sympy) and matplotlib are imported where needed
 
@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 import click
@@ -15,8 +16,10 @@ from certify.cli.common import (
     examples,
     existing_root,
     fail,
+    jobs_option,
     needing,
     pattern_argument,
+    progress,
     root_option,
     verdict_line,
 )
@@ -132,3 +135,53 @@ def _format(ending: str) -> Callable[[Picture], bytes]:
     with needing("atlas"):
         import_module("matplotlib")
     return pdf if ending == ".pdf" else png
+
+
+@click.command(epilog=examples("certify atlas --to site --jobs 2", "certify atlas --serve"))
+@click.option(
+    "--to", type=click.Path(path_type=Path), metavar="DIR", help="Folder to write the site to."
+)
+@click.option("--serve", is_flag=True, help="Show it to the browsers of this machine.")
+@click.option(
+    "--port", type=click.IntRange(0, 65535), default=8174, help="For --serve (default 8174)."
+)
+@jobs_option
+@root_option
+def atlas(to: Path | None, serve: bool, port: int, jobs: int, root: Path | None) -> None:
+    """Write the atlas: a site with a page for every pattern.
+
+    It opens from the disk, and needs no network. Everything is checked first; nothing is written
+    unless all is accepted.
+    """
+    from certify.run import run
+
+    if to is None and not serve:
+        fail("nothing to do: give --to DIR, or --serve, or both", code=2)
+    folder = existing_root(root)
+    with needing("atlas"):
+        from certify.atlas.site.build import write_site
+    with TemporaryDirectory() as scratch:
+        place = to or Path(scratch) / "atlas"
+        with progress() as show:
+            outcome = run(folder, jobs, show)
+            if outcome.faults:
+                fail(f"rejected: {outcome.faults[0]}", code=1)
+            try:
+                write_site(folder, outcome, place, jobs, show)
+            except ValueError as error:  # no explanation, or a file that has changed
+                fail(str(error), code=1)
+        if to:
+            click.echo(f"atlas: {printable(str(place / 'index.html'))}")
+        if serve:
+            _serve(place, port)
+
+
+def _serve(folder: Path, port: int) -> None:
+    from certify.atlas.site.serve import serving
+
+    try:
+        with serving(folder, port) as server:
+            click.echo(f"atlas: http://127.0.0.1:{server.server_port}/ until it is interrupted")
+            server.serve_forever()
+    except OSError as error:
+        fail(f"--port {port}: {error.strerror}", code=2)

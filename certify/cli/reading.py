@@ -1,11 +1,12 @@
-"""Commands for readers: explain, atlas."""
+"""Commands for readers: explain."""
 
 # ruff: noqa: PLC0415 - the kernel (with it sympy) is imported where it is needed
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
-from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import click
 
@@ -14,8 +15,6 @@ from certify.cli.common import (
     examples,
     existing_root,
     fail,
-    jobs_option,
-    needing,
     pattern_argument,
     print_json,
     print_table,
@@ -24,13 +23,19 @@ from certify.cli.common import (
     root_option,
     verdict_line,
 )
-from certify.printable import printable
+
+if TYPE_CHECKING:
+    from certify.kernel.certificate import Certificate
+
+Formats: TypeAlias = dict[str, Callable[[], Any]]
+"""Format -> what makes an explanation in it."""
 
 
 @click.command(
     epilog=examples(
         "certify explain 15_K valid",
         "certify explain 15_A realizable --format latex > 15_A.tex",
+        "certify explain 5_A valid",
         "certify explain --all",
     )
 )
@@ -50,47 +55,80 @@ from certify.printable import printable
 def explain(
     pattern: str | None, question: str | None, form: str, every: bool, root: Path | None
 ) -> None:
-    """Explain why the answer to a question is no, in steps that a person can follow.
+    """Explain why the answer to a question is yes or no.
 
-    QUESTION is realizable, convex or valid. Each step is a fact about one determinant, with its
-    reason. What is printed has been replayed by the kernel, step by step, against its own formula.
+    QUESTION is realizable, convex or valid. A no is explained in steps that a person can follow,
+    each a fact about one determinant, with its reason; they have been replayed by the kernel, step
+    by step, against its own formula. A yes is explained by numbers that a person can check: the
+    points, the determinants that matter, and what they show of any five vertices; they have been
+    checked as they stand, after the kernel accepted the points.
     """
-    from certify.atlas.explanation import BadOutline
-
     if every == bool(pattern) or bool(pattern) != bool(question):
         fail("name a pattern and a question, or else --all", code=2)
-    try:
-        if every:
-            _print_lengths(existing_root(root), form)
-        elif pattern and question:
-            _explain(existing_root(root), pattern, require_question(question), form)
-    except BadOutline as error:
-        fail(str(error), code=1)
+    if every:
+        _print_lengths(existing_root(root), form)
+    elif pattern and question:
+        _explain(existing_root(root), pattern, require_question(question), form)
 
 
 def _explain(root: Path, pattern: str, question: str, form: str) -> None:
-    from certify.atlas.outlines import explained
-    from certify.atlas.words import account, as_json, as_latex, as_markdown, as_text
     from certify.kernel.check import check_pattern
 
     verdict = check_pattern(root, pattern)
     if verdict.fault is not None or verdict.certificate is None:
         fail(verdict_line(verdict), code=1)
-    if verdict.answers[question] != "no":
-        answer = verdict.answers[question]
-        fail(f"{pattern} {question} is answered by {answer}; only a no is explained", code=2)
-    explanation = explained(verdict.certificate, question)
-    told = account(explanation, pattern, question, verdict.certificate.tetrahedra)
+    answer = verdict.answers[question]
+    if answer not in _FORMATS:
+        fail(f"{pattern} {question} is answered by {answer}; a yes or a no is explained", code=2)
+    formats = _FORMATS[answer](verdict.certificate, question)
     if form == "json":
-        print_json(as_json(told))
+        print_json(formats["json"]())
     else:
-        texts = {"text": lambda: as_text(told, columns())}
-        texts |= {"markdown": lambda: as_markdown(told), "latex": lambda: as_latex(told)}
-        click.echo(texts[form]())
+        click.echo(formats[form]())
+
+
+def _refutation(certificate: Certificate, question: str) -> Formats:
+    from certify.atlas.explanation import BadOutline
+    from certify.atlas.outlines import explained
+    from certify.atlas.words import account, as_json, as_latex, as_markdown, as_text
+
+    try:
+        explanation = explained(certificate, question)
+    except BadOutline as error:
+        fail(str(error), code=1)
+    told = account(explanation, certificate.pattern, question, certificate.tetrahedra)
+    return {
+        "text": lambda: as_text(told, columns()),
+        "markdown": lambda: as_markdown(told),
+        "latex": lambda: as_latex(told),
+        "json": lambda: as_json(told),
+    }
+
+
+def _witness(certificate: Certificate, question: str) -> Formats:
+    from certify.atlas.witness import BadWitness, witness
+    from certify.atlas.witness_words import as_json, as_latex, as_markdown, as_text, page
+
+    try:
+        found = witness(certificate, question)
+    except BadWitness as error:
+        fail(f"{certificate.pattern} {question}: {error}", code=1)
+    told = page(found, certificate.pattern)
+    return {
+        "text": lambda: as_text(told, columns()),
+        "markdown": lambda: as_markdown(told),
+        "latex": lambda: as_latex(told),
+        "json": lambda: as_json(found, certificate.pattern),
+    }
+
+
+_FORMATS = {"yes": _witness, "no": _refutation}
+"""Answer -> what makes its explanation, in each of the formats."""
 
 
 def _print_lengths(root: Path, form: str) -> None:
     """Print a table, or an object, of the explanations of all refutations that are accepted."""
+    from certify.atlas.explanation import BadOutline
     from certify.atlas.outlines import lengths
     from certify.run import run
 
@@ -99,7 +137,10 @@ def _print_lengths(root: Path, form: str) -> None:
     with progress() as show:
         verdicts = run(root, report=show).verdicts
         accepted = [v.certificate for v in verdicts if v.fault is None and v.certificate]
-        found = lengths(accepted, show)
+        try:
+            found = lengths(accepted, show)
+        except BadOutline as error:
+            fail(str(error), code=1)
     if form == "json":
         print_json({"explanations": [own._asdict() for own in found]})
     else:
@@ -113,53 +154,3 @@ def _print_lengths(root: Path, form: str) -> None:
             for own in found
         ]
         print_table(("refutation", "steps", "cases", "other steps by reason"), rows)
-
-
-@click.command(epilog=examples("certify atlas --to site --jobs 2", "certify atlas --serve"))
-@click.option(
-    "--to", type=click.Path(path_type=Path), metavar="DIR", help="Folder to write the site to."
-)
-@click.option("--serve", is_flag=True, help="Show it to the browsers of this machine.")
-@click.option(
-    "--port", type=click.IntRange(0, 65535), default=8174, help="For --serve (default 8174)."
-)
-@jobs_option
-@root_option
-def atlas(to: Path | None, serve: bool, port: int, jobs: int, root: Path | None) -> None:
-    """Write the atlas: a site with a page for every pattern.
-
-    It opens from the disk, and needs no network. Everything is checked first; nothing is written
-    unless all is accepted.
-    """
-    from certify.run import run
-
-    if to is None and not serve:
-        fail("nothing to do: give --to DIR, or --serve, or both", code=2)
-    folder = existing_root(root)
-    with needing("atlas"):
-        from certify.atlas.site.build import write_site
-    with TemporaryDirectory() as scratch:
-        place = to or Path(scratch) / "atlas"
-        with progress() as show:
-            outcome = run(folder, jobs, show)
-            if outcome.faults:
-                fail(f"rejected: {outcome.faults[0]}", code=1)
-            try:
-                write_site(folder, outcome, place, jobs, show)
-            except ValueError as error:  # no explanation, or a file that has changed
-                fail(str(error), code=1)
-        if to:
-            click.echo(f"atlas: {printable(str(place / 'index.html'))}")
-        if serve:
-            _serve(place, port)
-
-
-def _serve(folder: Path, port: int) -> None:
-    from certify.atlas.site.serve import serving
-
-    try:
-        with serving(folder, port) as server:
-            click.echo(f"atlas: http://127.0.0.1:{server.server_port}/ until it is interrupted")
-            server.serve_forever()
-    except OSError as error:
-        fail(f"--port {port}: {error.strerror}", code=2)
