@@ -19,7 +19,7 @@ from math import lcm
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from certify.kernel.certificate import QUESTIONS, Certificate, Yes
+from certify.kernel.certificate import Yes
 from certify.kernel.check import Verdict
 from certify.kernel.chirotope import denominators
 from certify.kernel.cube import TETRAHEDRON_TYPES
@@ -112,12 +112,6 @@ FORMATS = {
     ".stl": Format("stl", r"\Asolid\n", "solid %s\n", {}, {"binary": False}, solid=False),
 }
 """Ending -> format. OBJ and STL know no solids: they get the triangles of the boundary."""
-
-
-def strongest(certificate: Certificate) -> str | None:
-    """Return the last of the three questions that has points, or None."""
-    answers = certificate.answers
-    return next((q for q in reversed(QUESTIONS) if isinstance(answers[q], Yes)), None)
 
 
 def positive(tetrahedron: Simplex, sign: int) -> Simplex:
