@@ -11,10 +11,10 @@ from certify.kernel.check import instances_bounded_by
 from certify.kernel.chirotope import QUADRUPLES
 from certify.kernel.completeness import INNER
 from certify.kernel.evidence import Evidence, Malformed, completeness_file
-from certify.kernel.hexahedron import Simplex
 from certify.kernel.orientations import has_sign
 from certify.kernel.theorems import Outcome
 from certify.kernel.triangulation import label, orientation
+from certify.mesh.files import positive
 from certify.report import coordinates, json_text
 from certify.writing import write_files
 
@@ -150,14 +150,8 @@ def _placement(certificate: Certificate, question: str, answer: Yes) -> dict[str
         "question": question,
         "points": coordinates(answer.points),
         "orientation": "each tetrahedron abcd has det(b-a, c-a, d-a) > 0",
-        "tetrahedra": [_positive(t, sign) for t, sign in sorted(signs.items())],
+        "tetrahedra": [positive(t, sign) for t, sign in sorted(signs.items())],
     }
-
-
-def _positive(tetrahedron: Simplex, sign: int) -> Simplex:
-    """Return the vertices in an order in which the determinant is positive."""
-    a, b, c, d = tetrahedron
-    return tetrahedron if sign > 0 else (a, b, d, c)
 
 
 def _about(certificate: Certificate, question: str) -> list[str]:

@@ -308,6 +308,10 @@ class Browser:
         self.wrong: list[str] = []
         self.asked: list[str] = []
 
+    def hear(self, path: str, message: Any) -> None:
+        if message.type == "error":
+            self.wrong.append(f"{path}: {message.text}")
+
     def open(self, path: str, width: int = 1280, scheme: str = "light") -> Any:
         context = self.browser.new_context(
             viewport={"width": width, "height": 900}, color_scheme=scheme
@@ -316,7 +320,7 @@ class Browser:
         page.on("request", lambda request: self.asked.append(request.url))
         page.on("requestfailed", lambda request: self.wrong.append(f"{path}: {request.url}"))
         page.on("pageerror", lambda error: self.wrong.append(f"{path}: {error}"))
-        page.on("console", lambda m: m.type == "error" and self.wrong.append(f"{path}: {m.text}"))
+        page.on("console", lambda message: self.hear(path, message))
         page.goto(f"{self.site.as_uri()}/{path}")
         return page
 

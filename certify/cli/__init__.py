@@ -1,8 +1,8 @@
 """The command line: parse, call, print. What is true is decided in certify/kernel alone.
 
-One module for each group of commands: :mod:`checking`, :mod:`evidence`, :mod:`auditing`,
-:mod:`reading`, :mod:`drawing`, :mod:`doubting`, :mod:`building`; what they share is in
-:mod:`common`.
+One module for each group of commands: :mod:`checking`, :mod:`evidence`, :mod:`exporting`,
+:mod:`auditing`, :mod:`reading`, :mod:`drawing`, :mod:`doubting`, :mod:`building`; what they share
+is in :mod:`common`.
 """
 
 import os
@@ -15,7 +15,16 @@ from typing import Any
 import click
 
 from certify import __version__
-from certify.cli import auditing, building, checking, doubting, drawing, evidence, reading
+from certify.cli import (
+    auditing,
+    building,
+    checking,
+    doubting,
+    drawing,
+    evidence,
+    exporting,
+    reading,
+)
 from certify.cli.common import fail
 
 __all__ = ["cli", "main"]
@@ -97,7 +106,7 @@ for command in (
     reading.explain,
     drawing.draw,
     drawing.atlas,
-    evidence.export,
+    exporting.export,
     checking.replay,
     auditing.spheres,
     doubting.attack,

@@ -23,6 +23,7 @@ from certify.cli.common import (
     root_option,
     verdict_line,
 )
+from certify.printable import printable
 
 if TYPE_CHECKING:
     from certify.atlas.picture import Picture

@@ -1,4 +1,4 @@
-"""Commands that show the evidence: list, show, export."""
+"""Commands that show the evidence: list, show."""
 
 # ruff: noqa: PLC0415 - the kernel (with it sympy) is imported where it is needed
 
@@ -14,19 +14,15 @@ from certify.cli.common import (
     examples,
     existing_root,
     exit_with,
-    fail,
     json_option,
     pattern_argument,
     plural,
     print_json,
     print_table,
     print_wrapped,
-    require_pattern,
-    require_question,
     root_option,
     verdict_line,
 )
-from certify.printable import printable
 
 if TYPE_CHECKING:
     from certify.kernel.check import Verdict
@@ -85,80 +81,6 @@ def show(pattern: str, root: Path | None, as_json: bool) -> None:
         if record:
             _print_evidence(record, verdict)
     exit_with(verdict.fault is None)
-
-
-@click.command(
-    epilog=examples(
-        "certify export 15_A realizable --to out", "certify export complete g --core --to out"
-    )
-)
-@click.argument("pattern")
-@click.argument("question", shell_complete=lambda *_: ["realizable", "convex", "valid"])
-@click.option(
-    "--to",
-    type=click.Path(path_type=Path),
-    metavar="DIR",
-    required=True,
-    help="Folder to write to.",
-)
-@click.option("--core", is_flag=True, help="Of a formula only the clauses that its proof names.")
-@click.option("--plain", is_flag=True, help="No comments, for programs that cannot read them.")
-@root_option
-def export(
-    pattern: str, question: str, to: Path, core: bool, plain: bool, root: Path | None
-) -> None:
-    """Write the evidence for one answer for other programs.
-
-    Nothing is written unless the kernel accepts it.
-
-    QUESTION is realizable, convex or valid. For a no: the refuted formula as DIMACS, with the proof
-    as LRAT and as DRAT. For a yes: the points and the tetrahedra as JSON, each tetrahedron with
-    its vertices in an order in which its volume is positive.
-
-    With "complete" for PATTERN and a letter a..g for QUESTION: the formula and the proofs that no
-    pattern with this type of boundary is missing.
-    """
-    from certify.kernel.evidence import Malformed
-
-    folder = existing_root(root)
-    try:
-        if pattern == "complete":
-            written = _export_completeness(folder, question, to, core, plain)
-        else:
-            written = _export_answer(folder, pattern, question, to, core, plain)
-    except Malformed as error:
-        fail(f"rejected: {error}", code=1)
-    for path in written:
-        click.echo(f"{pattern} {question}: {printable(str(path))}")
-
-
-def _export_completeness(root: Path, letter: str, to: Path, core: bool, plain: bool) -> list[Path]:
-    from certify.export import export_completeness
-    from certify.kernel.hexahedron import BOUNDARY_TYPES
-    from certify.run import run
-
-    if letter not in BOUNDARY_TYPES:
-        fail(f"unknown boundary type {letter}; it must be one of a to g", code=2)
-    outcome = run(root)
-    if outcome.faults:
-        fail(f"rejected: {outcome.faults[0]}", code=1)
-    return export_completeness(root, outcome, letter, to, core, plain)
-
-
-def _export_answer(
-    root: Path, name: str, question: str, to: Path, core: bool, plain: bool
-) -> list[Path]:
-    from certify.export import export_answer
-    from certify.kernel.check import check_pattern
-
-    pattern = require_pattern(name)
-    require_question(question)
-    verdict = check_pattern(root, pattern)
-    if verdict.fault is not None or verdict.certificate is None:
-        fail(verdict_line(verdict), code=1)
-    if verdict.answers[question] == "open":
-        fail(f"{pattern} {question} is open: there is nothing to export", code=2)
-    return export_answer(root, verdict.certificate, question, to, core, plain)
 
 
 def _print_claims(records: Sequence[dict[str, Any]], note: str) -> None:
