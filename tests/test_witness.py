@@ -60,6 +60,7 @@ from tests.witnesses import (
     found,
     require_record,
     some,
+    told,
 )
 
 
