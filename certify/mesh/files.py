@@ -10,7 +10,6 @@ coordinates, cells and tags are found as they should be, it is refused.
 """
 
 import re
-from array import array
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from dataclasses import dataclass
@@ -18,6 +17,7 @@ from io import StringIO
 from math import lcm
 from pathlib import Path
 from typing import Any, NamedTuple
+from warnings import catch_warnings, simplefilter
 
 from certify.kernel.certificate import Yes
 from certify.kernel.check import Verdict
@@ -170,9 +170,8 @@ def write_mesh(path: Path, shown: Model) -> None:
     mesh = meshio.Mesh(
         [list(map(float, point)) for point in shown.points],
         [(block[0].kind, [[v - 1 for v in cell.vertices] for cell in block]) for block in blocks],
-        # 32 bits: in legacy VTK, "long" is not as long everywhere
         cell_data={
-            name: [array("i", _tags(block, tagged)) for block in blocks]
+            name: [_tags(block, tagged) for block in blocks]
             for name, tagged in form.data.items()
             if set(tagged).intersection(kinds)
         },
@@ -188,10 +187,10 @@ def _tags(cells: Sequence[Cell], tagged: Sequence[str]) -> list[int]:
     return [cell.tag if cell.kind in tagged else 0 for cell in cells]
 
 
-def _groups(cells: Sequence[Cell]) -> "dict[str, array[int]]":
+def _groups(cells: Sequence[Cell]) -> dict[str, list[int]]:
     """Return the names of Gmsh's physical groups, each with its number and its dimension."""
     return {
-        NAMES[kind][tag - 1]: array("i", [tag, 2 if kind == "triangle" else 3])
+        NAMES[kind][tag - 1]: [tag, 2 if kind == "triangle" else 3]
         for kind, tag in sorted({(cell.kind, cell.tag) for cell in cells})
     }
 
@@ -239,6 +238,7 @@ def _require_equal(
 
 @contextmanager
 def _silence() -> Iterator[None]:
-    """Keep from the console what meshio says there about formats."""
-    with redirect_stdout(StringIO()), redirect_stderr(StringIO()):
+    """Keep from the console what meshio says there about formats, and the warnings of numpy."""
+    with redirect_stdout(StringIO()), redirect_stderr(StringIO()), catch_warnings():
+        simplefilter("ignore")
         yield

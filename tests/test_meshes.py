@@ -1,0 +1,508 @@
+"""Mesh files say what the certificates say, exactly, or they are not written."""
+
+import re
+import sys
+from collections.abc import Callable, Iterator
+from fractions import Fraction
+from itertools import combinations
+from pathlib import Path
+from typing import Any
+
+import meshio
+import pytest
+
+import certify
+from certify.kernel.certificate import PATTERN_NAMES, Yes
+from certify.kernel.check import Verdict, check_pattern
+from certify.kernel.hexahedron import CORNERS, FACETS
+from certify.mesh import files
+from certify.mesh.files import FORMATS, model, write_mesh
+from tests.commands import CHECKOUT, assert_rejects, assert_usage_error, five_a, run, to_nothing
+from tests.commands import write as write_certificate
+from tests.geometry import CUBE, cross, dot, volume
+
+ENDINGS = [*FORMATS]
+SOLID = [ending for ending, form in FORMATS.items() if form.solid]
+SURFACES = [ending for ending in ENDINGS if ending not in SOLID]
+STRONGEST = {"5_A": "valid", "8_E": "valid", "15_K": "convex", "15_I": "realizable"}
+
+Point = tuple[int, ...]
+Cells = list[tuple[str, list[Point], int, int]]
+"""Kind, corners, type and facet, each from 1, or 0."""
+
+FACES_ON_THE_CUBE = {1: 3, 2: 2, 3: 1, 4: 0, 5: 0}
+"""Number of a type -> how many triangles of such a tetrahedron are on the facets of the cube."""
+
+
+def integers(values: Any) -> Point:
+    """Return integers, given as such or as floats that are."""
+    assert all(value == int(value) for value in values)
+    return tuple(map(int, values))
+
+
+def tags_of(mesh: Any, ending: str, number: int, kind: str) -> tuple[list[int], list[int]]:
+    """Return the types and the facets of a block of cells."""
+    data = {name: [*map(int, blocks[number])] for name, blocks in mesh.cell_data.items()}
+    none = [0] * len(mesh.cells[number].data)
+    if ending in (".vtu", ".vtk"):
+        return data.get("type", none), data.get("facet", none)
+    if ending == ".obj":
+        return none, [group + 1 for group in data["obj:group_ids"]]
+    if ending == ".stl":
+        return none, [facet for facet in range(1, 7) for _ in range(2)]
+    (tags, *others) = (tags for name, tags in data.items() if name != "facet_normals")
+    assert all(other == tags for other in others)
+    return (none, tags) if kind == "triangle" else (tags, none)
+
+
+def read(path: Path) -> tuple[list[Point], Cells]:
+    """Return the points and the cells that another program would find, as meshio reads them."""
+    mesh = meshio.read(path)
+    points = [integers(point) for point in mesh.points.tolist()]
+    cells: Cells = []
+    for number, block in enumerate(mesh.cells):
+        corners = [[points[v] for v in cell] for cell in block.data.tolist()]
+        tags = tags_of(mesh, path.suffix, number, block.type)
+        cells += zip([block.type] * len(corners), corners, *tags, strict=True)
+    return points, cells
+
+
+def scaled(verdict: Verdict, question: str) -> list[Point]:
+    """Return the points of a yes, of integers."""
+    assert verdict.certificate is not None
+    answer = verdict.certificate.answers[question]
+    assert isinstance(answer, Yes)
+    return [integers(point) for point in answer.points]
+
+
+def check_surface(points: list[Point], cells: Cells) -> int:
+    """Check the triangles of the boundary; return six times the volume that they enclose."""
+    surface = [(corners, facet) for kind, corners, _, facet in cells if kind == "triangle"]
+    assert [facet for _, facet in surface] == [1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6]
+    for corners, facet in surface:
+        assert {points.index(p) + 1 for p in corners} < {*FACETS[facet - 1]}
+    edges = [(t[i], t[i - 1]) for t, _ in surface for i in range(3)]
+    assert sorted(edges) == sorted((b, a) for a, b in edges)  # closed, and coherent
+    assert len({*edges}) == len(edges) == 36
+    return sum(dot(a, cross(b, c)) for (a, b, c), _ in surface)
+
+
+def check_tetrahedra(points: list[Point], cells: Cells, verdict: Verdict) -> int:
+    """Check the tetrahedra; return six times the volume of them all."""
+    assert verdict.certificate is not None
+    solids = [(corners, number) for kind, corners, number, _ in cells if kind == "tetra"]
+    found = [tuple(points.index(p) + 1 for p in corners) for corners, _ in solids]
+    assert sorted(tuple(sorted(t)) for t in found) == [*verdict.certificate.tetrahedra]
+    volumes = [volume(*corners) for corners, _ in solids]
+    assert min(volumes) > 0
+    for tetrahedron, (_, number) in zip(found, solids, strict=True):
+        triples = combinations([CUBE[v - 1] for v in tetrahedron], 3)
+        flat = sum(any(len({*axis}) == 1 for axis in zip(*t, strict=True)) for t in triples)
+        assert flat == FACES_ON_THE_CUBE[number]
+        in_one_plane = volume(*(CUBE[v - 1] for v in tetrahedron)) == 0
+        assert in_one_plane == (number == 5)
+    return sum(volumes)
+
+
+def check_file(path: Path, pattern: str, question: str, verdict: Verdict) -> None:
+    """Check everything in a file with tetrahedra, or with the boundary alone."""
+    points, cells = read(path)
+    expected = scaled(verdict, question)
+    assert sorted(points) == sorted(expected)
+    enclosed = check_surface(expected, cells)
+    assert enclosed > 0
+    if path.suffix in SOLID:
+        assert points == expected  # vertex v is point v
+        assert len(cells) == verdict.size + 12
+        assert check_tetrahedra(points, cells, verdict) == enclosed
+    else:
+        assert len(cells) == 12
+
+
+def test_formats_are_those_that_are_asked_for() -> None:
+    assert ENDINGS == [".vtu", ".vtk", ".msh", ".mesh", ".obj", ".stl"]
+    assert SURFACES == [".obj", ".stl"]
+    pages = (CHECKOUT / "tests" / "help.txt").read_text()
+    page = " ".join(pages.partition("$ certify export")[2].split())
+    assert f"{', '.join(ENDINGS[:-1])} or {ENDINGS[-1]}" in page
+
+
+@pytest.mark.parametrize("ending", ENDINGS)
+@pytest.mark.parametrize("pattern", STRONGEST)
+def test_mesh_of_a_pattern(
+    tmp_path: Path, verdicts: dict[str, Verdict], pattern: str, ending: str
+) -> None:
+    path = tmp_path / f"new{ending}"
+    code, out, err = run(CHECKOUT, "export", pattern, "--mesh", str(path))
+    assert (code, out, err) == (0, f"{pattern} {STRONGEST[pattern]}: {path}\n", "")
+    check_file(path, pattern, STRONGEST[pattern], verdicts[pattern])
+    assert [*tmp_path.iterdir()] == [path]
+
+
+def test_mesh_of_a_question(tmp_path: Path, verdicts: dict[str, Verdict]) -> None:
+    """Those patterns have other points for another question, so they are told apart."""
+    pattern = next(
+        name
+        for name, verdict in verdicts.items()
+        if verdict.answers["valid"] == "yes"
+        and scaled(verdict, "valid") != scaled(verdict, "realizable")
+    )
+    for question in ("realizable", "valid"):
+        path = tmp_path / f"{question}.mesh"
+        assert run(CHECKOUT, "export", pattern, question, "--mesh", str(path))[0] == 0
+        check_file(path, pattern, question, verdicts[pattern])
+
+
+@pytest.fixture(scope="module")
+def supplement(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, list[str]]:
+    """Return the folder that --all writes, and the lines that it prints."""
+    to = tmp_path_factory.mktemp("all")
+    code, out, err = run(CHECKOUT, "export", "--all", "--to", str(to / "new" / "folder"))
+    assert (code, err) == (0, "")
+    return to / "new" / "folder", out.splitlines()
+
+
+def test_all_that_are_realizable_are_written(
+    supplement: tuple[Path, list[str]], verdicts: dict[str, Verdict]
+) -> None:
+    folder, lines = supplement
+    absent = {"15_A", "15_B", "15_J"}
+    assert {path.name for path in folder.iterdir()} == {
+        f"{name}.vtu" for name in PATTERN_NAMES if name not in absent
+    }
+    assert len(lines) == 174
+    assert lines[171:] == [f"{n} realizable: no, so there is no mesh" for n in sorted(absent)]
+    written = [re.fullmatch(r"(\w+) (\w+): (.*)", line) for line in lines[:171]]
+    questions = [match[2] for match in written if match]
+    assert [questions.count(q) for q in ("valid", "convex", "realizable")] == [143, 15, 13]
+    for match in written:
+        assert match is not None
+        assert Path(match[3]) == folder / f"{match[1]}.vtu"
+        check_file(Path(match[3]), match[1], match[2], verdicts[match[1]])
+
+
+def test_the_kernel_accepts_what_is_read(supplement: tuple[Path, list[str]]) -> None:
+    for line in supplement[1][:171]:
+        pattern, question, file = line.replace(":", "", 1).split(" ", 2)
+        certify.require(pattern, question, read(Path(file))[0])
+
+
+@pytest.mark.parametrize("ending", ENDINGS)
+def test_bytes_are_the_same_twice(
+    tmp_path: Path, verdicts: dict[str, Verdict], ending: str
+) -> None:
+    shown = model(verdicts["8_E"], "valid")
+    contents = []
+    for name in ("a", "b"):
+        write_mesh(tmp_path / f"{name}{ending}", shown)
+        contents.append((tmp_path / f"{name}{ending}").read_bytes())
+    assert contents[0] == contents[1]
+    assert b"meshio" not in contents[0]  # nor its version
+
+
+# The hexahedron
+
+VTK_CORNERS = (
+    (0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1),
+)  # fmt: skip
+"""vtkHexahedron: the parametric coordinates of its points 0..7."""
+
+VTK_FACES = (
+    (0, 4, 7, 3), (1, 2, 6, 5), (0, 1, 5, 4), (3, 7, 6, 2), (0, 3, 2, 1), (4, 5, 6, 7),
+)  # fmt: skip
+"""vtkHexahedron: its faces, each counterclockwise seen from outside."""
+
+
+def rotated(cycle: tuple[int, ...]) -> tuple[int, ...]:
+    """Return a cycle with its least member first."""
+    start = cycle.index(min(cycle))
+    return cycle[start:] + cycle[:start]
+
+
+def test_the_order_of_vtk_is_that_of_the_template() -> None:
+    assert dict(enumerate(VTK_CORNERS, start=1)) == CORNERS
+    outward = {rotated(tuple(v - 1 for v in reversed(facet))) for facet in FACETS}
+    assert outward == {rotated(face) for face in VTK_FACES}
+
+
+@pytest.mark.parametrize("ending", SOLID)
+def test_hexahedron(tmp_path: Path, verdicts: dict[str, Verdict], ending: str) -> None:
+    path = tmp_path / f"new{ending}"
+    assert run(CHECKOUT, "export", "8_E", "--hexahedron", "--mesh", str(path))[0] == 0
+    mesh = meshio.read(path)
+    assert [block.type for block in mesh.cells] == ["hexahedron"]
+    assert mesh.cells[0].data.tolist() == [[*range(8)]]
+    assert [integers(point) for point in mesh.points.tolist()] == scaled(verdicts["8_E"], "valid")
+
+
+def test_all_hexahedra(tmp_path: Path) -> None:
+    words = ["--hexahedron", "--format", "mesh", "--to", str(tmp_path)]
+    assert run(CHECKOUT, "export", "--all", *words)[0] == 0
+    found = [*tmp_path.iterdir()]
+    assert len(found) == 171
+    assert all(
+        path.suffix == ".mesh" and b"\nHexahedra\n1\n" in path.read_bytes() for path in found
+    )
+
+
+# Coordinates
+
+
+def moved(factor: Fraction | int, root: Path) -> Path:
+    """Give 5_A the unit cube, times a factor."""
+    points = [[str(x * factor) for x in corner] for corner in CORNERS.values()]
+    exact: list[list[int | str]] = [[x if "/" in x else int(x) for x in p] for p in points]
+    write_certificate(root, five_a() | {"valid": {"answer": "yes", "points": exact}})
+    return root
+
+
+@pytest.mark.parametrize("ending", ENDINGS)
+def test_fractions_become_integers(root: Path, ending: str) -> None:
+    path = root / f"new{ending}"
+    assert run(moved(Fraction(2, 3), root), "export", "5_A", "--mesh", str(path))[0] == 0
+    corners = {tuple(2 * x for x in corner) for corner in CUBE}
+    assert {*read(path)[0]} == corners
+    assert b"5_A valid, coordinates times 3" in path.read_bytes()
+
+
+@pytest.mark.parametrize("ending", ENDINGS)
+def test_the_largest_exact_coordinates(root: Path, ending: str) -> None:
+    path = root / f"new{ending}"
+    assert run(moved(2**53, root), "export", "5_A", "--mesh", str(path))[0] == 0
+    assert max(x for point in read(path)[0] for x in point) == 2**53
+    path.unlink()
+    outcome = run(moved(-(2**53) - 1, root), "export", "5_A", "realizable", "--mesh", str(path))
+    assert outcome[0] == 0  # these are small
+    path.unlink()
+    mirrored = moved(2**53 + 1, root)
+    outcome = run(mirrored, "export", "5_A", "--mesh", str(path))
+    assert_rejects(outcome, str(2**53 + 1), "above 2^53")
+    assert not path.exists()
+
+
+@pytest.mark.parametrize("ending", SOLID)
+def test_a_file_says_what_its_numbers_mean(tmp_path: Path, ending: str) -> None:
+    path = tmp_path / f"new{ending}"
+    assert run(CHECKOUT, "export", "8_E", "--mesh", str(path))[0] == 0
+    assert (
+        b"8_E valid, coordinates times 1; "
+        b"type: 1 corner, 2 staircase, 3 slanted, 4 core, 5 core diagonal; "
+        b"facet: 1 1234, 2 1256, 3 1458, 4 2367, 5 3478, 6 5678\n"
+    ) in path.read_bytes().replace(b"-->", b"\n")
+    if ending == ".msh":
+        groups = {name: group.tolist() for name, group in meshio.read(path).field_data.items()}
+        facets = {f"facet {name}": [k + 1, 2] for k, name in enumerate(files.FACET_NAMES)}
+        assert groups == {"corner": [1, 3], "staircase": [2, 3], "slanted": [3, 3], **facets}
+
+
+# What is read back
+
+
+def add(content: bytes) -> bytes:
+    return content.replace(b"1 3 0 1", b"1 3 0 2")
+
+
+def turn(content: bytes) -> bytes:
+    return content.replace(b" 1 2 3 7\n", b" 2 1 3 7\n")
+
+
+def tag(content: bytes) -> bytes:
+    return content.replace(b"1 4 2 2 2 ", b"1 4 2 3 2 ")
+
+
+def drop(content: bytes) -> bytes:
+    return content.replace(b"20 2 2 6 6 6 7 5\n", b"").replace(b"s\n20\n", b"s\n19\n")
+
+
+def cut(content: bytes) -> bytes:
+    return content[:300]
+
+
+def no_title(content: bytes) -> bytes:
+    return content.replace(b"$EndMeshFormat", b"$Other")
+
+
+@pytest.mark.parametrize(
+    ("change", "fault"),
+    [
+        (add, "other cells or coordinates"),
+        (turn, "other cells or coordinates"),
+        (drop, "other cells or coordinates"),
+        (tag, "another gmsh:physical"),
+        (cut, "cannot be read back"),
+        (no_title, "no place for a heading"),
+    ],
+)
+def test_what_differs_is_refused(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    change: Callable[[bytes], bytes],
+    fault: str,
+) -> None:
+    original = meshio.write
+
+    def spoiling(path: Path, *args: Any, **settings: Any) -> None:
+        original(path, *args, **settings)
+        content = path.read_bytes()
+        path.write_bytes(change(content))
+        assert path.read_bytes() != content
+
+    monkeypatch.setattr(meshio, "write", spoiling)
+    outcome = run(CHECKOUT, "export", "8_E", "--mesh", str(tmp_path / "8_E.msh"))
+    assert_rejects(outcome, "", fault)
+    assert [*tmp_path.iterdir()] == []
+
+
+def test_points_that_nobody_accepted_have_no_mesh(verdicts: dict[str, Verdict]) -> None:
+    wrong = Verdict("5_A", None, verdicts["5_A"].certificate, answers={"valid": "rejected"})
+    for verdict in (wrong, verdicts["15_A"], Verdict("5_A", "no certificate")):
+        with pytest.raises(ValueError, match="no points were accepted"):
+            model(verdict, "valid")
+
+
+# Bad input
+
+
+def nothing_new(folder: Path) -> Callable[[], None]:
+    before = sorted(folder.rglob("*"))
+
+    def check() -> None:
+        assert sorted(folder.rglob("*")) == before
+
+    return check
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        ("16_A --mesh new.vtu", "unknown pattern 16_A"),
+        ("complete --mesh new.vtu", "unknown pattern complete"),
+        ("5_A beautiful --mesh new.vtu", "unknown question beautiful"),
+        ("5_A --mesh new.xyz", "unknown ending of new.xyz; it must be one of .vtu, .vtk, "),
+        ("5_A --mesh new", "unknown ending of new;"),
+        ("5_A --mesh .vtu", "unknown ending of .vtu;"),
+        ("15_A --mesh new.vtu", "15_A realizable is no: there are no points"),
+        ("15_A convex --mesh new.vtu", "15_A convex is no: there are no points"),
+        ("5_A --mesh new.obj --hexahedron", ".obj files have no cells like a hexahedron"),
+        ("5_A --mesh new.stl --hexahedron", ".stl files have no cells like a hexahedron"),
+        ("5_A --mesh new.vtu --to out", "--to cannot be used with --mesh"),
+        ("5_A --mesh new.vtu --core", "--core cannot be used with --mesh"),
+        ("5_A --mesh new.vtu --format vtk", "--format cannot be used with --mesh"),
+        ("5_A valid --to out --hexahedron", "--hexahedron cannot be used with PATTERN"),
+        ("5_A valid --to out --format vtk", "--format cannot be used with PATTERN"),
+        ("5_A --to out", "Missing QUESTION"),
+        ("5_A valid", "Missing --to"),
+        ("--to out", "Missing PATTERN and QUESTION"),
+        ("--mesh new.vtu", "Missing PATTERN"),
+        ("--all", "Missing --to"),
+        ("5_A --all --to out", "PATTERN cannot be used with --all"),
+        ("--all --to out --mesh new.vtu", "--mesh cannot be used with --all"),
+        ("--all --to out --format xyz", "unknown format xyz; it must be one of .vtu, "),
+        ("--all --to out --format obj --hexahedron", ".obj files have no cells"),
+    ],
+)
+def test_usage_errors(
+    root: Path, monkeypatch: pytest.MonkeyPatch, words: str, message: str
+) -> None:
+    monkeypatch.chdir(root)
+    check = nothing_new(root)
+    assert_usage_error(run(root, "export", *words.split()), message)
+    check()
+
+
+def test_an_open_question_has_no_mesh(root: Path) -> None:
+    write_certificate(root, five_a() | {"valid": {"answer": "open"}})
+    path = root / "new.vtu"
+    outcome = run(root, "export", "5_A", "valid", "--mesh", str(path))
+    assert_usage_error(outcome, "5_A valid is open: there are no points to export")
+    assert not path.exists()
+    assert run(root, "export", "5_A", "--mesh", str(path))[1] == f"5_A convex: {path}\n"
+
+
+def test_a_rejected_certificate_has_no_mesh(root: Path) -> None:
+    flat = [[x, y, 0] for x, y, _ in CORNERS.values()]
+    write_certificate(root, five_a() | {"convex": {"answer": "yes", "points": flat}})
+    check = nothing_new(root)
+    outcome = run(root, "export", "5_A", "valid", "--mesh", str(root / "new.vtu"))
+    assert_rejects(outcome, "certificates/5_A.json", "tetrahedron 1236 is degenerate")
+    outcome = run(root, "export", "--all", "--to", str(root / "out"))
+    assert_rejects(outcome, "certificates/5_A.json", "tetrahedron 1236 is degenerate")
+    check()
+
+
+def test_all_needs_all_certificates(root: Path) -> None:
+    outcome = run(root, "export", "--all", "--to", str(root / "out"))
+    assert_rejects(outcome, "certificates/5_B.json", "missing")
+    assert not (root / "out").exists()
+
+
+def to_a_file(path: Path) -> None:
+    path.write_text("old")
+
+
+@pytest.mark.parametrize("make", [to_a_file, Path.mkdir, to_nothing])
+def test_nothing_is_replaced(root: Path, make: Callable[[Path], None]) -> None:
+    make(root / "5_C.vtu")
+    check = nothing_new(root)
+    message = "5_C.vtu exists already, and no mesh replaces a file"
+    (root / "5_C.vtu").rename(root / "6_C.vtu")
+    for words in (["5_A", "--mesh", str(root / "6_C.vtu")], ["--all", "--to", str(root)]):
+        assert_usage_error(run(root, "export", *words), message.replace("5_C", "6_C"))
+    (root / "6_C.vtu").rename(root / "5_C.vtu")
+    check()
+
+
+def test_a_file_where_a_folder_should_be(root: Path) -> None:
+    file = root / "file"
+    file.write_text("old")
+    outcome = run(root, "export", "5_A", "--mesh", str(file / "new.vtu"))
+    assert_usage_error(outcome, "file")
+    assert_usage_error(run(CHECKOUT, "export", "--all", "--to", str(file)), "file")
+    assert file.read_text() == "old"
+
+
+@pytest.fixture
+def without_meshio(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    monkeypatch.setitem(sys.modules, "meshio", None)
+    yield
+
+
+@pytest.mark.usefixtures("without_meshio")
+def test_without_meshio(root: Path) -> None:
+    check = nothing_new(root)
+    for words in (["5_A", "--mesh", str(root / "new.vtu")], ["--all", "--to", str(root / "out")]):
+        message = "meshio is not installed: run pip install '.[mesh]'"
+        assert_usage_error(run(root, "export", *words), message)
+    check()
+    assert run(root, "export", "5_A", "valid", "--to", str(root / "out"))[0] == 0
+
+
+@pytest.mark.parametrize("error", [OSError(28, "No space left on device"), KeyboardInterrupt()])
+def test_what_breaks_off_leaves_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, error: BaseException
+) -> None:
+    """At the hundredth of all files."""
+    original, written = meshio.write, []
+
+    def break_off(path: Path, *args: Any, **settings: Any) -> None:
+        original(path, *args, **settings)
+        written.append(path)
+        if len(written) == 100:
+            raise error
+
+    monkeypatch.setattr(meshio, "write", break_off)
+    code, out, err = run(CHECKOUT, "export", "--all", "--to", str(tmp_path))
+    assert (out, len(err.strip().splitlines())) == ("", 1)
+    assert code == (1 if isinstance(error, OSError) else 130)
+    assert [*tmp_path.iterdir()] == []
+    assert len(written) == 100
+
+
+def test_nothing_but_the_lines_is_printed(
+    tmp_path: Path, verdicts: dict[str, Verdict], capfd: pytest.CaptureFixture[str]
+) -> None:
+    """Meshio tells the console of some formats that they are not for everyone."""
+    for ending in ENDINGS:
+        write_mesh(tmp_path / f"new{ending}", model(verdicts["5_A"], "valid"))
+    assert capfd.readouterr() == ("", "")
+    assert check_pattern(CHECKOUT, "5_A").fault is None
