@@ -69,7 +69,7 @@ def _artist(mark: Polygon | Line | Circle | Label, layer: int) -> Any:
                 ys,
                 color=_colour(look.stroke),
                 linewidth=width,
-                linestyle=dashes,  # type: ignore[arg-type]  # None is allowed
+                linestyle=dashes,
                 solid_capstyle="round",
                 dash_capstyle="round",
                 solid_joinstyle="round",
