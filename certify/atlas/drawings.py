@@ -30,7 +30,7 @@ SHOWN = {
 """Question -> what its points are, the next question, and what is added if that has a no."""
 
 
-def view(points: tuple[Point, ...], tetrahedra: Tetrahedra) -> list[Spot]:
+def view(points: tuple[Point, ...], tetrahedra: Tetrahedra) -> tuple[Spot, ...]:
     """Return the points as they are seen from where the edges are best told apart."""
     return viewed(points, frozenset(edges(tetrahedra)))
 

@@ -162,72 +162,94 @@ NODE_GAP, EDGE_GAP = 0.8, 0.45
 """Wanted distances of nodes from each other and from edges, where an edge has about length 1."""
 
 
-def ugliness(places: Sequence[Place], graph: Decomposition) -> float:
-    """Return how much there is to complain of: crossings, nodes and edges too near nodes."""
-    lines = [
-        *((pair, 1.0) for pair in graph.plain),
-        *((pair, 0.6) for pair in sorted({*graph.dashed} - {*graph.plain})),
-    ]
-    total = 0.0
-    for (one, weight), (other, weight2) in combinations(lines, 2):
-        if not {*one} & {*other} and _cross(*(places[k] for k in (*one, *other))):
-            total += weight * weight2
-    for one_place, other_place in combinations(places, 2):
-        gap = off_segment(one_place, other_place, other_place)
-        if gap < NODE_GAP:
-            total += 12 * (1 - gap / NODE_GAP)
-    for (a, b), _ in lines:
-        one_place, other_place = places[a], places[b]
-        dx, dy = one_place[0] - other_place[0], one_place[1] - other_place[1]
-        total += 0.05 * (dx * dx + dy * dy)
-        low = min(one_place[0], other_place[0]) - EDGE_GAP
-        high = max(one_place[0], other_place[0]) + EDGE_GAP
+class _Taste:
+    """What is ugly in layouts of one graph."""
+
+    def __init__(self, graph: Decomposition) -> None:
+        """Note which lines there are, and which of them could cross."""
+        dashed = sorted({*graph.dashed} - {*graph.plain})
+        lines = [*((pair, 1.0) for pair in graph.plain), *((pair, 0.6) for pair in dashed)]
+        self.lines = [pair for pair, _ in lines]
+        self.crossing = [
+            (*one, *other, weight * other_weight)
+            for (one, weight), (other, other_weight) in combinations(lines, 2)
+            if not {*one} & {*other}
+        ]
+        self.pairs = [*combinations(range(graph.size), 2)]
+
+    def ugliness(self, places: Sequence[Place], limit: float = 1e9) -> float:
+        """Return how much there is to complain of; beyond the limit no more is counted.
+
+        Nodes too near to each other, long lines, lines too near to nodes, and crossings.
+        """
+        total = 0.0
+        for a, b in self.pairs:
+            gap = off_segment(places[a], places[b], places[b])
+            if gap < NODE_GAP:
+                total += 12 * (1 - gap / NODE_GAP)
+        for a, b in self.lines:
+            total += self._line(places, a, b)
+            if total >= limit:
+                return total
+        for a, b, c, d, weight in self.crossing:
+            if _cross(places[a], places[b], places[c], places[d]):
+                total += weight
+        return total
+
+    def _line(self, places: Sequence[Place], a: int, b: int) -> float:
+        (x, y), (u, v) = places[a], places[b]
+        total = 0.05 * ((x - u) ** 2 + (y - v) ** 2)
+        left, right = min(x, u) - EDGE_GAP, max(x, u) + EDGE_GAP
+        low, high = min(y, v) - EDGE_GAP, max(y, v) + EDGE_GAP
         for k, place in enumerate(places):
-            if low < place[0] < high and k not in {a, b}:
-                gap = off_segment(place, one_place, other_place)
+            if left < place[0] < right and low < place[1] < high and k not in {a, b}:
+                gap = off_segment(place, (x, y), (u, v))
                 if gap < EDGE_GAP:
                     total += 4 * (1 - gap / EDGE_GAP)
-    return total
+        return total
 
 
 def _improved(
-    places: list[Place], graph: Decomposition, action: Action, dice: _Dice, tries: int
+    places: list[Place], taste: _Taste, action: Action, dice: _Dice
 ) -> tuple[float, list[Place]]:
     """Return a layout after moving nodes, with their images, wherever this makes it nicer."""
-    best = ugliness(places, graph)
-    for k in range(tries):
-        step = 1.2 * (1 - k / tries) + 0.05
+    best = taste.ugliness(places)
+    for k in range(TRIES):
+        step = 1.2 * (1 - k / TRIES) + 0.05
         node = k % len(places)
         moved = list(places)
         x, y = places[node][0] + step * dice.roll(), places[node][1] + step * dice.roll()
         for permutation, (a, b, c, d) in action.motions:
             moved[permutation[node]] = (a * x + b * y, c * x + d * y)
         moved = _symmetric(moved, action)
-        cost = ugliness(moved, graph)
+        cost = taste.ugliness(moved, best)
         if cost < best - 1e-9:
             best, places = cost, moved
     return best, places
 
 
 STARTS, ROUNDS, TRIES = 10, 30, 150
+"""Layouts to begin with, rounds of spreading each, and moves of nodes in the two best."""
+
+WAYS, PRIZE = 6, 0.8
+"""How many ways to show symmetry are tried, and what each symmetry shown is worth."""
 
 
 @cache
 def layout(tetrahedra: Tetrahedra) -> tuple[tuple[Place, ...], int]:
     """Return the places of the nodes, and how many symmetries the layout shows."""
     graph = decomposition(tetrahedra)
-    far = _distances(graph)
-    dice = _Dice()
+    far, taste, dice = _distances(graph), _Taste(graph), _Dice()
     found = []
     ways = sorted(actions(permutations_of(tetrahedra)), key=lambda action: -len(action.motions))
-    for action in ways[:8]:
+    for action in ways[:WAYS]:
         starts = []
         for _ in range(STARTS):
             places = [(dice.roll(), dice.roll()) for _ in range(graph.size)]
             places = _spread(_symmetric(places, action), far, action, ROUNDS)
-            starts.append((ugliness(places, graph), places))
+            starts.append((taste.ugliness(places), places))
         for _, places in sorted(starts)[:2]:
-            cost, better = _improved(places, graph, action, dice, TRIES)
-            found.append((cost - 0.8 * len(action.motions), len(action.motions), better))
+            cost, better = _improved(places, taste, action, dice)
+            found.append((cost - PRIZE * len(action.motions), len(action.motions), better))
     _, many, places = min(found)
     return tuple(places), many

@@ -236,10 +236,12 @@ def _bowed(a: Place, b: Place, by: float) -> tuple[Place, ...]:
     """Return an arc from one place to another, which leaves the chord by so much at most."""
     dx, dy = b[0] - a[0], b[1] - a[1]
     length = sqrt(dx * dx + dy * dy) or 1.0
-    bend = [4 * k / 12 * (1 - k / 12) * by / length for k in range(13)]
-    return tuple(
-        (a[0] + k / 12 * dx - h * dy, a[1] + k / 12 * dy + h * dx) for k, h in enumerate(bend)
+    steps = [k / 12 for k in range(1, 12)]
+    bends = [4 * t * (1 - t) * by / length for t in steps]
+    between_ends = (
+        (a[0] + t * dx - h * dy, a[1] + t * dy + h * dx) for t, h in zip(steps, bends, strict=True)
     )
+    return (a, *between_ends, b) if by else (a, b)
 
 
 def _dashed(a: Place, b: Place, others: Sequence[Place], twin: bool) -> tuple[Place, ...]:

@@ -181,7 +181,8 @@ def clearance(flat: Sequence[Sequence[float]], edges: Iterable[Simplex]) -> floa
     return min(apart, 2 * off) / size
 
 
-def viewed(points: Sequence[Point], edges: frozenset[Simplex]) -> list[Spot]:
+@cache
+def viewed(points: tuple[Point, ...], edges: frozenset[Simplex]) -> tuple[Spot, ...]:
     """Return the points as they are seen from where they and the edges are best told apart."""
     spots = like_the_cube(points)
     near = _rounded(tuple(spots))
@@ -192,16 +193,15 @@ def viewed(points: Sequence[Point], edges: frozenset[Simplex]) -> list[Spot]:
         score = round(worth * clearance(flat, sorted(edges)), 3)
         if score > best:
             best, chosen = score, turn
-    return whole([_applied(chosen, spot) for spot in spots])
+    return _whole([_applied(chosen, spot) for spot in spots])
 
 
-@cache
 def cube_seen() -> tuple[Spot, ...]:
     """Return the cube's corners as they are seen from where all its edges are told apart."""
-    return tuple(viewed(CUBE, frozenset(combinations(VERTICES, 2))))
+    return viewed(CUBE, frozenset(combinations(VERTICES, 2)))
 
 
-def whole(spots: Sequence[Spot]) -> list[Spot]:
+def _whole(spots: Sequence[Spot]) -> tuple[Spot, ...]:
     """Return the points, all stretched by their common denominator: integers are faster."""
     scale = lcm(*(Fraction(x).denominator for spot in spots for x in spot))
-    return [tuple(int(x * scale) for x in spot) for spot in spots]
+    return tuple(tuple(int(x * scale) for x in spot) for spot in spots)
