@@ -234,7 +234,7 @@ def paint_faults(parts: list[Face]) -> int:
     """Return how often a part that is farther away is painted over a nearer one, on a grid."""
     xs, ys, _ = zip(*chain.from_iterable(part.corners for part in parts), strict=True)
     grid = [
-        [Fraction(min(axis)) + Fraction(2 * k + 1, 48) * (max(axis) - min(axis)) for k in range(24)]
+        [Fraction(min(axis)) + Fraction(2 * k + 1, 32) * (max(axis) - min(axis)) for k in range(16)]
         for axis in (xs, ys)
     ]
     faults = 0

@@ -21,8 +21,14 @@ READING = [
     "export 15_A realizable --to OUT",
     "export complete a --core --to OUT",
     "export 8_E valid --to OUT",
+    "export 8_E --mesh OUT/8_E.vtu",
 ]
-WRITING = ["export 8_E valid --to inside", "check-all --junit report.xml", "build"]
+WRITING = [
+    "export 8_E valid --to inside",
+    "export 8_E --mesh 8_E.vtu",
+    "check-all --junit report.xml",
+    "build",
+]
 
 LOCKED = """
 mount --bind . . && mount -o remount,bind,ro . && cd "$PWD" || exit 99
@@ -69,7 +75,7 @@ def test_nothing_is_written(copy: Path) -> None:
         result = run(copy, command, PYTHONDONTWRITEBYTECODE="1")
         assert (result.returncode, result.stderr) == (0, ""), command
     assert state(copy) == before
-    assert len(list((copy.parent / "OUT").iterdir())) == 1 + 3 + 3 + 1
+    assert len(list((copy.parent / "OUT").iterdir())) == 1 + 3 + 3 + 1 + 1
 
 
 @pytest.fixture

@@ -42,7 +42,7 @@ def _require_use(given: set[str]) -> None:
     needed, allowed = USES[use]
     missing = [name for name in ("PATTERN", "QUESTION", "--to") if name in {use, *needed} - given]
     if missing:
-        raise click.UsageError(f"Missing {' and '.join(missing)}")
+        raise click.UsageError(f"Missing {', '.join(missing)}")
     if surplus := sorted(given - needed - allowed - {use}):
         raise click.UsageError(f"{surplus[0]} cannot be used with {use}")
 
@@ -173,7 +173,7 @@ def _export_mesh(root: Path, name: str, question: str | None, path: Path, hexahe
     pattern = require_pattern(name)
     if question is not None:
         require_question(question)
-    _require_format(path.suffix, f"unknown ending of {path.name}", hexahedron)
+    _require_format(path.suffix, f"{path}: unknown ending", hexahedron)
     _require_new(path)
     verdict = check_pattern(root, pattern)
     if verdict.fault is not None:

@@ -1,1 +1,1 @@
-"""The engineer's room: how good a hexahedron is. No theorem depends on it."""
+"""The engineer's room: how good a hexahedron is; mesh files. No theorem depends on it."""

@@ -225,9 +225,9 @@ def _require_equal(
 
     try:
         mesh = meshio.read(path)
+        found = [(part.type, mesh.points[row].tolist()) for part in mesh.cells for row in part.data]
     except (Exception, SystemExit) as error:  # it exits where it knows no reader that does
         raise NotExact(f"{path.name} cannot be read back: {error!a}") from None
-    found = [(part.type, mesh.points[row].tolist()) for part in mesh.cells for row in part.data]
     if found != [(c.kind, [list(points[v - 1]) for v in c.vertices]) for c in cells]:
         raise NotExact(f"{path.name} has other cells or coordinates when it is read back")
     for name, tagged in form.data.items():
