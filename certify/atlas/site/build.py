@@ -28,6 +28,8 @@ from certify.atlas.site.records import (
     table,
     tetrahedra_by_name,
 )
+from certify.atlas.witness import witness
+from certify.atlas.witness_words import Page, page
 from certify.atlas.words import FORMULA, NOTATION, Account, account
 from certify.audit import Finding, audit, summary
 from certify.kernel.certificate import QUESTIONS
@@ -60,7 +62,7 @@ class Drawn:
 
     thumbnail: str
     pictures: dict[str, str]
-    told: dict[str, Account | None]
+    told: dict[str, Account | Page | None]
 
 
 def write_site(root: Path, outcome: Outcome, folder: Path, jobs: int, report: Report) -> None:
@@ -111,11 +113,16 @@ def _drawn(verdict: Verdict) -> Drawn:
     return Drawn(svg(closed(certificate) if realized else whole), inline, told)
 
 
-def _told(pattern: Pattern, question: str) -> Account | None:
-    if pattern.answer(question) != "no":
-        return None
-    explanation = explained(pattern.certificate, question)
-    return account(explanation, pattern.name, question, pattern.certificate.tetrahedra)
+def _told(pattern: Pattern, question: str) -> Account | Page | None:
+    """Return the explanation of an answer: of a no an account, of a yes a page."""
+    certificate = pattern.certificate
+    match pattern.answer(question):
+        case "no":
+            explanation = explained(certificate, question)
+            return account(explanation, pattern.name, question, certificate.tetrahedra)
+        case "yes":
+            return page(witness(certificate, question), pattern.name)
+    return None
 
 
 class _Pages:
@@ -314,9 +321,23 @@ def _by_names(text: str, names: Iterable[str]) -> list[str]:
     return [part for part in re.split(r"(\b\d{1,2}_[A-Z]{1,2}\b)", text) if part or part in names]
 
 
+def _marked(text: str) -> Markup:
+    """Return a text of witness_words.py, its formulas and codes told apart from words."""
+    html = re.sub(r"`([^`]*)`", r"<code>\1</code>", str(escape(text)))
+    html = re.sub(r"\$([^$]*)\$", lambda found: _raised(found[1]), html)
+    return Markup(html)
+
+
+def _raised(formula: str) -> str:
+    formula = re.sub(r"_(?:\{(\w+)\}|(\w))", lambda f: f"<sub>{f[1] or f[2]}</sub>", formula)
+    formula = re.sub(r"\^(\w)", r"<sup>\1</sup>", formula)
+    return f'<span class="formula">{formula.replace("-", "−")}</span>'
+
+
 FILTERS: Mapping[str, Any] = {
     "slug": _slug,
     "sign": _sign,
     "formula": _formula,
     "by_names": _by_names,
+    "marked": _marked,
 }
