@@ -5,7 +5,8 @@ from shutil import copy, copytree
 
 import pytest
 
-from certify.kernel.certificate import Certificate
+from certify.kernel import certificate
+from certify.kernel.certificate import PATTERN_NAMES, Certificate
 from certify.kernel.check import Completeness, Verdict
 from certify.kernel.theorems import Outcome, check_all
 from tests.commands import CHECKOUT, five_a, write
@@ -59,3 +60,9 @@ def everything(tmp_path: Path) -> Path:
     for folder in ("certificates", "proofs"):
         copytree(CHECKOUT / folder, tmp_path / folder)
     return tmp_path
+
+
+@pytest.fixture
+def ten(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let there be ten patterns, to save time."""
+    monkeypatch.setattr(certificate, "PATTERN_NAMES", PATTERN_NAMES[:10])

@@ -68,7 +68,7 @@ def _require_use(given: set[str]) -> None:
     metavar="FILE",
     help="Write a mesh; FILE ends in .vtu, .vtk, .msh, .mesh, .obj or .stl.",
 )
-@click.option("--hexahedron", is_flag=True, help="As a mesh of one cell, not of tetrahedra.")
+@click.option("--hexahedron", is_flag=True, help="The hexahedron as one cell, and no tetrahedra.")
 @click.option("--all", "every", is_flag=True, help="Write a mesh of every realizable pattern.")
 @click.option("--format", "ending", metavar="ENDING", help="Of all these files (default vtu).")
 @root_option

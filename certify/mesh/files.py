@@ -3,7 +3,8 @@
 Vertex v of the template is point v of the file, counted as the format counts. Coordinates are the
 certificate's, times their common denominator: integers. Every tetrahedron has positive volume in
 the order of its vertices. The twelve triangles of the boundary are counterclockwise seen from
-outside, two for each facet of the template.
+outside, two for each facet of the template. The hexahedron as a cell has the template's order of
+vertices, which is that of VTK; it is a valid one if the question is valid.
 
 A file is written by meshio, given a heading without dates or versions, and read back: unless all
 coordinates, cells and tags are found as they should be, it is refused.
