@@ -20,6 +20,7 @@ from certify.cli.common import (
     root_option,
     verdict_line,
 )
+from certify.printable import printable
 
 if TYPE_CHECKING:
     from certify.atlas.picture import Picture
@@ -86,7 +87,7 @@ def draw(
     from certify.writing import write_file
 
     write_file(to, content(picture))
-    click.echo(f"{name}: {to}")
+    click.echo(f"{name}: {printable(str(to))}")
 
 
 def _pattern(pattern: str, root: Path, as_graph: bool) -> Picture:
