@@ -90,7 +90,7 @@ def draw(
     from certify.writing import write_file
 
     write_file(to, content(picture))
-    click.echo(f"{name}: {to}")
+    click.echo(f"{name}: {printable(str(to))}")
 
 
 def _pattern(pattern: str, root: Path, as_graph: bool) -> Picture:
