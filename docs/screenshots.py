@@ -1,6 +1,6 @@
 """Take the two pictures of the atlas that README.md shows, with Debian's chromium.
 
-    certify atlas --to site && python docs/screenshots.py site
+certify atlas --to site && python docs/screenshots.py site
 """
 
 import shutil

@@ -9,18 +9,18 @@ from typing import Any
 
 import pytest
 
-from certify.atlas import marks, scene
-from certify.atlas.apart import pulled_apart
-from certify.atlas.drawings import closed, pair, view
-from certify.atlas.marks import ROOM, fitted
-from certify.atlas.picture import (
+from certify.atlas.draw import marks, scene
+from certify.atlas.draw.apart import pulled_apart
+from certify.atlas.draw.drawings import closed, pair, view
+from certify.atlas.draw.marks import ROOM, fitted
+from certify.atlas.draw.picture import (
     Label,
     Line,
     Picture,
     Place,
 )
-from certify.atlas.scene import Face, painters_order, witness
-from certify.atlas.space import Spot, off_segment
+from certify.atlas.draw.scene import Face, painters_order, witness
+from certify.atlas.draw.space import Spot, off_segment
 from certify.graphs import boundary, edges
 from certify.kernel.certificate import PATTERN_NAMES, Certificate, read_certificate
 from certify.kernel.chirotope import chirotope

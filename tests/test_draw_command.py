@@ -13,11 +13,11 @@ from xml.etree import ElementTree
 import pytest
 from click.testing import CliRunner
 
-from certify.atlas.drawings import boundary_type, closed, graph, pair, unrealized
-from certify.atlas.figures import FIGURES, figure
-from certify.atlas.layout import layout, permutations_of
-from certify.atlas.marks import NODE
-from certify.atlas.picture import (
+from certify.atlas.draw.drawings import boundary_type, closed, graph, pair, unrealized
+from certify.atlas.draw.figures import FIGURES, figure
+from certify.atlas.draw.layout import layout, permutations_of
+from certify.atlas.draw.marks import NODE
+from certify.atlas.draw.picture import (
     LOOKS,
     PALETTE,
     SHADES,
@@ -30,7 +30,7 @@ from certify.atlas.picture import (
     Polygon,
     svg,
 )
-from certify.atlas.space import off_segment
+from certify.atlas.draw.space import off_segment
 from certify.cli import cli
 from certify.graphs import decomposition
 from certify.kernel.certificate import PATTERN_NAMES
@@ -162,8 +162,8 @@ def test_colours_are_told_apart_in_grey() -> None:
 
 TWICE = """
 import hashlib, sys
-from certify.atlas.drawings import graph, pair
-from certify.atlas.picture import svg
+from certify.atlas.draw.drawings import graph, pair
+from certify.atlas.draw.picture import svg
 from tests.test_draw import certificate
 for name in ("7_C",):
     shown = certificate(name)

@@ -16,7 +16,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pysat.solvers import Solver
 
-from certify.atlas.explanation import (
+from certify.atlas.explain.explanation import (
     BadOutline,
     Case,
     Explanation,
@@ -26,11 +26,11 @@ from certify.atlas.explanation import (
     explain,
     without_idle_steps,
 )
-from certify.atlas.outlines import explained, reasons_of, refutations
-from certify.atlas.outlines import shipped as outlines
-from certify.atlas.reasons import ANY, SIGN, Reason, Reasons, Signs, literals_for
-from certify.atlas.shorten import Problem, length_of, shorten
-from certify.atlas.words import account, as_latex, as_markdown, as_text, cycles
+from certify.atlas.explain.outlines import explained, reasons_of, refutations
+from certify.atlas.explain.outlines import shipped as outlines
+from certify.atlas.explain.reasons import ANY, SIGN, Reason, Reasons, Signs, literals_for
+from certify.atlas.explain.shorten import Problem, length_of, shorten
+from certify.atlas.explain.words import account, as_latex, as_markdown, as_text, cycles
 from certify.kernel.certificate import Certificate, No, read_certificate
 from certify.kernel.check import refuted_formula
 from certify.kernel.evidence import Evidence

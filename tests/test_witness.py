@@ -14,7 +14,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from certify.atlas.witness import (
+from certify.atlas.explain.witness import (
     BadWitness,
     Line,
     Support,
@@ -27,7 +27,7 @@ from certify.atlas.witness import (
     supports,
     witness,
 )
-from certify.atlas.witness_words import as_json, as_text
+from certify.atlas.explain.witness_words import as_json, as_text
 from certify.kernel.certificate import Yes
 from certify.kernel.chirotope import QUINTUPLES, chirotope
 from certify.kernel.embedding import NotRealized, require_convex_position, require_realization

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from certify.atlas.witness_words import as_json, as_latex, as_markdown, as_text, linear
+from certify.atlas.explain.witness_words import as_json, as_latex, as_markdown, as_text, linear
 from tests.commands import five_a, run, write
 from tests.geometry import CUBE, cross, dot, minus, sign, volume
 from tests.witnesses import (

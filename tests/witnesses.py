@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
-from certify.atlas.witness import Witness, witness
-from certify.atlas.witness_words import Page, page
+from certify.atlas.explain.witness import Witness, witness
+from certify.atlas.explain.witness_words import Page, page
 from certify.kernel.certificate import PATTERN_NAMES, Certificate, Yes, read_certificate
 from certify.kernel.evidence import Evidence
 from tests.commands import CHECKOUT

@@ -26,7 +26,7 @@ from certify.cli.common import (
 from certify.printable import printable
 
 if TYPE_CHECKING:
-    from certify.atlas.picture import Picture
+    from certify.atlas.draw.picture import Picture
 
 ENDINGS = (".svg", ".pdf", ".png")
 
@@ -94,7 +94,7 @@ def draw(
 
 
 def _pattern(pattern: str, root: Path, as_graph: bool) -> Picture:
-    from certify.atlas.drawings import graph, pair
+    from certify.atlas.draw.drawings import graph, pair
     from certify.kernel.check import check_pattern
 
     verdict = check_pattern(root, pattern)
@@ -104,7 +104,7 @@ def _pattern(pattern: str, root: Path, as_graph: bool) -> Picture:
 
 
 def _boundary(letter: str) -> Picture:
-    from certify.atlas.drawings import boundary_type
+    from certify.atlas.draw.drawings import boundary_type
     from certify.kernel.hexahedron import BOUNDARY_TYPES
 
     if letter not in BOUNDARY_TYPES:
@@ -113,7 +113,7 @@ def _boundary(letter: str) -> Picture:
 
 
 def _figure(number: int, root: Path) -> Picture:
-    from certify.atlas.figures import FIGURES, figure
+    from certify.atlas.draw.figures import FIGURES, figure
     from certify.kernel.check import Rejected
 
     if number not in FIGURES:
@@ -127,11 +127,11 @@ def _figure(number: int, root: Path) -> Picture:
 
 def _format(ending: str) -> Callable[[Picture], bytes]:
     """Return what makes a file with this ending of a picture; fail if its library is missing."""
-    from certify.atlas.picture import svg
+    from certify.atlas.draw.picture import svg
 
     if ending == ".svg":
         return lambda picture: svg(picture).encode()
-    from certify.atlas.render import pdf, png
+    from certify.atlas.draw.render import pdf, png
 
     with needing("atlas"):
         import_module("matplotlib")

@@ -88,9 +88,9 @@ def _explain(root: Path, pattern: str, question: str, form: str) -> None:
 
 
 def _refutation(certificate: Certificate, question: str) -> Formats:
-    from certify.atlas.explanation import BadOutline
-    from certify.atlas.outlines import explained
-    from certify.atlas.words import account, as_json, as_latex, as_markdown, as_text
+    from certify.atlas.explain.explanation import BadOutline
+    from certify.atlas.explain.outlines import explained
+    from certify.atlas.explain.words import account, as_json, as_latex, as_markdown, as_text
 
     try:
         explanation = explained(certificate, question)
@@ -106,8 +106,8 @@ def _refutation(certificate: Certificate, question: str) -> Formats:
 
 
 def _witness(certificate: Certificate, question: str) -> Formats:
-    from certify.atlas.witness import BadWitness, witness
-    from certify.atlas.witness_words import as_json, as_latex, as_markdown, as_text, page
+    from certify.atlas.explain.witness import BadWitness, witness
+    from certify.atlas.explain.witness_words import as_json, as_latex, as_markdown, as_text, page
 
     try:
         found = witness(certificate, question)
@@ -128,8 +128,8 @@ _FORMATS = {"yes": _witness, "no": _refutation}
 
 def _print_lengths(root: Path, form: str) -> None:
     """Print a table, or an object, of the explanations of all refutations that are accepted."""
-    from certify.atlas.explanation import BadOutline
-    from certify.atlas.outlines import lengths
+    from certify.atlas.explain.explanation import BadOutline
+    from certify.atlas.explain.outlines import lengths
     from certify.run import run
 
     if form not in ("text", "json"):

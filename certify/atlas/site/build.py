@@ -18,9 +18,12 @@ from markdown_it import MarkdownIt
 from markupsafe import Markup, escape
 
 from certify import __version__
-from certify.atlas.drawings import boundary_type, closed, graph, pair, unrealized
-from certify.atlas.outlines import explained
-from certify.atlas.picture import STYLE_SHEET, svg
+from certify.atlas.draw.drawings import boundary_type, closed, graph, pair, unrealized
+from certify.atlas.draw.picture import STYLE_SHEET, svg
+from certify.atlas.explain.outlines import explained
+from certify.atlas.explain.witness import witness
+from certify.atlas.explain.witness_words import Page, page
+from certify.atlas.explain.words import FORMULA, NOTATION, Account, account
 from certify.atlas.site.records import (
     Pattern,
     findings_by_pattern,
@@ -28,9 +31,6 @@ from certify.atlas.site.records import (
     table,
     tetrahedra_by_name,
 )
-from certify.atlas.witness import witness
-from certify.atlas.witness_words import Page, page
-from certify.atlas.words import FORMULA, NOTATION, Account, account
 from certify.audit import Finding, audit, summary
 from certify.kernel.certificate import QUESTIONS
 from certify.kernel.check import Verdict

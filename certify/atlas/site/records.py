@@ -9,8 +9,8 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from certify.atlas.space import like_the_cube
-from certify.atlas.words import cycles
+from certify.atlas.draw.space import like_the_cube
+from certify.atlas.explain.words import cycles
 from certify.audit import Finding
 from certify.graphs import boundary, decomposition, edges
 from certify.kernel.certificate import QUESTIONS, Certificate, No, Yes

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import NamedTuple, TypeAlias
 
-from certify.atlas.space import Number, Spot, cross, dot, minus
+from certify.atlas.draw.space import Number, Spot, cross, dot, minus
 from certify.kernel.certificate import Certificate, Yes
 from certify.kernel.chirotope import Point
 from certify.kernel.hexahedron import FACETS, Simplex, simplex

@@ -10,8 +10,8 @@ from itertools import combinations, product
 from textwrap import wrap
 from typing import Any
 
-from certify.atlas.explanation import Case, Explanation, Fact, Item, Mirror, Step
-from certify.atlas.reasons import ANY, SIGN, Reason, Signs
+from certify.atlas.explain.explanation import Case, Explanation, Fact, Item, Mirror, Step
+from certify.atlas.explain.reasons import ANY, SIGN, Reason, Signs
 from certify.kernel.chirotope import RELATIONS, dependence
 from certify.kernel.hexahedron import Simplex, sorted_with_sign
 from certify.kernel.triangulation import label

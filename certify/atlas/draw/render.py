@@ -5,7 +5,16 @@
 from io import BytesIO
 from typing import Any
 
-from certify.atlas.picture import BASELINE, LOOKS, PALETTE, Circle, Label, Line, Picture, Polygon
+from certify.atlas.draw.picture import (
+    BASELINE,
+    LOOKS,
+    PALETTE,
+    Circle,
+    Label,
+    Line,
+    Picture,
+    Polygon,
+)
 
 PIXELS_PER_INCH, POINTS_PER_INCH = 96, 72
 POINT = POINTS_PER_INCH / PIXELS_PER_INCH

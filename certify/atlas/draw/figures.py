@@ -10,8 +10,8 @@ from itertools import chain, zip_longest
 from pathlib import Path
 from typing import NamedTuple
 
-from certify.atlas.drawings import shown, view
-from certify.atlas.marks import (
+from certify.atlas.draw.drawings import shown, view
+from certify.atlas.draw.marks import (
     EDGES,
     JOINED,
     Box,
@@ -24,9 +24,9 @@ from certify.atlas.marks import (
     legend_marks,
     types_of,
 )
-from certify.atlas.picture import Label, Mark, Picture
-from certify.atlas.scene import witness
-from certify.atlas.space import cube_seen
+from certify.atlas.draw.picture import Label, Mark, Picture
+from certify.atlas.draw.scene import witness
+from certify.atlas.draw.space import cube_seen
 from certify.kernel.certificate import PATTERN_NAMES, Certificate
 from certify.kernel.check import Rejected, check_pattern
 from certify.kernel.cube import (

@@ -12,8 +12,8 @@ from itertools import combinations
 from math import sqrt
 from typing import NamedTuple, TypeAlias
 
-from certify.atlas.picture import Place
-from certify.atlas.space import off_segment
+from certify.atlas.draw.picture import Place
+from certify.atlas.draw.space import off_segment
 from certify.graphs import Decomposition, Tetrahedra, decomposition
 from certify.kernel.hexahedron import SYMMETRIES, image
 

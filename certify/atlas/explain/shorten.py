@@ -15,8 +15,8 @@ from math import log2
 from random import Random
 from typing import NamedTuple, TypeAlias
 
-from certify.atlas.explanation import Outline
-from certify.atlas.reasons import ANY, Reason, Reasons, Signs, opposite
+from certify.atlas.explain.explanation import Outline
+from certify.atlas.explain.reasons import ANY, Reason, Reasons, Signs, opposite
 from certify.kernel.chirotope import QUADRUPLES
 from certify.kernel.hexahedron import SYMMETRIES, sorted_with_sign
 

@@ -7,9 +7,9 @@ from itertools import combinations, pairwise, product
 from math import sqrt
 from typing import NamedTuple, TypeAlias
 
-from certify.atlas.apart import pulled_apart
-from certify.atlas.layout import layout
-from certify.atlas.picture import (
+from certify.atlas.draw.apart import pulled_apart
+from certify.atlas.draw.layout import layout
+from certify.atlas.draw.picture import (
     TYPES,
     Circle,
     Label,
@@ -19,7 +19,7 @@ from certify.atlas.picture import (
     Polygon,
     tetrahedron_kind,
 )
-from certify.atlas.scene import (
+from certify.atlas.draw.scene import (
     HEXAHEDRON_EDGES,
     Face,
     between,
@@ -29,7 +29,7 @@ from certify.atlas.scene import (
     shell,
     stretches,
 )
-from certify.atlas.space import Number, Spot, centre, cube_seen, minus, off_segment
+from certify.atlas.draw.space import Number, Spot, centre, cube_seen, minus, off_segment
 from certify.graphs import Tetrahedra, decomposition, edges
 from certify.kernel.cube import TETRAHEDRON_TYPES
 from certify.kernel.hexahedron import VERTICES, Simplex, boundary_triangles

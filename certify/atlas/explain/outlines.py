@@ -1,6 +1,6 @@
 """The shipped outlines of all refutations, and the program that looks for shorter ones.
 
-    python -m certify.atlas.outlines --tries 100 --jobs 2 [15_K.valid ...]
+    python -m certify.atlas.explain.outlines --tries 100 --jobs 2 [15_K.valid ...]
 
 It starts from what is there, prints steps and cases, and overwrites outlines.json.
 """
@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import click
 
-from certify.atlas.explanation import (
+from certify.atlas.explain.explanation import (
     BadOutline,
     Case,
     Explanation,
@@ -25,8 +25,8 @@ from certify.atlas.explanation import (
     explain,
     without_idle_steps,
 )
-from certify.atlas.reasons import Reasons, gather
-from certify.atlas.shorten import Problem, shorten
+from certify.atlas.explain.reasons import Reasons, gather
+from certify.atlas.explain.shorten import Problem, shorten
 from certify.families import of_question
 from certify.kernel.certificate import PATTERN_NAMES, Certificate, No, read_certificate
 from certify.kernel.evidence import Evidence, default_root
@@ -131,7 +131,9 @@ def lengths(certificates: Sequence[Certificate], report: Report | None = None) -
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Look for shorter outlines, print how long they are, and write them."""
-    parser = argparse.ArgumentParser(prog="python -m certify.atlas.outlines", description=__doc__)
+    parser = argparse.ArgumentParser(
+        prog="python -m certify.atlas.explain.outlines", description=__doc__
+    )
     parser.add_argument("names", nargs="*", metavar="NAME", help="such as 15_K.valid; default: all")
     parser.add_argument("--tries", type=int, default=0)
     parser.add_argument("--seed", type=int, default=1)

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from itertools import count
 from typing import Any, TypeAlias
 
-from certify.atlas.reasons import (
+from certify.atlas.explain.reasons import (
     ANY,
     Reason,
     Reasons,

@@ -12,8 +12,8 @@ from itertools import zip_longest
 from textwrap import wrap
 from typing import Any, TypeAlias
 
-from certify.atlas.witness import IN_ONE_PLANE, Line, Support, Witness
-from certify.atlas.words import LATEX_HEAD, LATEX_TAIL
+from certify.atlas.explain.witness import IN_ONE_PLANE, Line, Support, Witness
+from certify.atlas.explain.words import LATEX_HEAD, LATEX_TAIL
 from certify.kernel.hexahedron import CORNERS, Simplex, boundary_triangles
 from certify.kernel.triangulation import boundary_diagonals, label
 from certify.kernel.validity import across

@@ -9,7 +9,7 @@ from itertools import combinations
 from math import sqrt
 from typing import TypeAlias
 
-from certify.atlas.picture import Place
+from certify.atlas.draw.picture import Place
 
 Outline: TypeAlias = Sequence[Place]
 """The corners of a piece on the page; all that is asked of them is their hull."""

@@ -3,7 +3,7 @@
 Every function returns a Picture, which picture.py makes SVG of.
 """
 
-from certify.atlas.marks import (
+from certify.atlas.draw.marks import (
     EDGES,
     JOINED,
     apart_marks,
@@ -13,9 +13,9 @@ from certify.atlas.marks import (
     legend_marks,
     types_of,
 )
-from certify.atlas.picture import Label, Mark, Picture
-from certify.atlas.scene import witness
-from certify.atlas.space import Spot, viewed
+from certify.atlas.draw.picture import Label, Mark, Picture
+from certify.atlas.draw.scene import witness
+from certify.atlas.draw.space import Spot, viewed
 from certify.graphs import Tetrahedra, edges
 from certify.kernel.certificate import Certificate, No
 from certify.kernel.chirotope import Point

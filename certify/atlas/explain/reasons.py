@@ -3,7 +3,7 @@
 A *reason* is what some clauses of the kernel's formula say together about a few determinants: one
 Grassmann-Plücker relation about six, the circuit of five points about five. It takes the signs that
 each of them may still have, and returns those that remain. What it returns is only a proposal: a
-step counts once the kernel has replayed it (see :mod:`certify.atlas.explanation`).
+step counts once the kernel has replayed it (see :mod:`certify.atlas.explain.explanation`).
 """
 
 from collections import defaultdict

@@ -1,0 +1,1 @@
+"""Drawings: exact geometry, what is hidden, and pictures as SVG, PDF and PNG."""
