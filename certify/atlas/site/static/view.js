@@ -339,8 +339,8 @@
       const k = event.points[0]?.data.meta;
       if (typeof k !== "number") return;
       const how = new FormData(form).get("click");
-      if (how === "near") showNear(k);
-      else hide(k, true);
+      // Not while plotly is still busy with the click.
+      setTimeout(() => (how === "near" ? showNear(k) : hide(k, true)));
     });
   });
 })();
