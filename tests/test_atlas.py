@@ -500,7 +500,15 @@ def test_the_view_obeys_its_controls(browser: Browser) -> None:
     seen = page.evaluate(eye)
     page.focus("[data-turn=left]")
     page.keyboard.press("Enter")
-    assert page.evaluate(eye) != seen
+    turned = page.evaluate(eye)
+    assert turned != seen
+    assert far(turned) == pytest.approx(far(seen))
+    page.click("[data-turn=in]")
+    assert far(page.evaluate(eye)) < far(turned)
+
+
+def far(eye: dict[str, float]) -> float:
+    return sum(x * x for x in eye.values())
 
 
 @slowly

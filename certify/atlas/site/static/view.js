@@ -29,10 +29,10 @@
   const hidden = new Set();
   /** From where it is looked at; plotly tells when the reader turns it. */
   let camera = {
-    eye: { x: 0.8, y: -1.1, z: 0.65 },
+    eye: { x: 0.9, y: -1.3, z: 0.75 },
     center: { x: 0, y: 0, z: 0 },
     up: { x: 0, y: 0, z: 1 },
-    projection: { type: "orthographic" },
+    projection: { type: "perspective" },
   };
 
   // Geometry.
@@ -120,7 +120,7 @@
         color: colour(scene.types[k].replace(" ", "-")),
         opacity,
         flatshading: true,
-        lighting: { ambient: 0.75, diffuse: 0.5, specular: 0.05 },
+        lighting: { ambient: 0.85, diffuse: 0.4, specular: 0.05 },
         visible: !hidden.has(k),
         hovertemplate: `${digits(k)}, ${scene.types[k]}<extra></extra>`,
       };
