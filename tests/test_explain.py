@@ -91,6 +91,16 @@ def test_the_kernel_replays_what_an_outline_says(name: str) -> None:
         replay(formula(name), "".join(rest) + last.removesuffix(f" {hint} {end}") + " 0\n")
 
 
+def test_they_are_as_short_as_the_document_says() -> None:
+    found = re.findall(r"at most (\d+)( steps,|\.$)", (CHECKOUT / "CHECKING.md").read_text(), re.M)
+    ((said, _), (valid, _)) = found
+    longest = dict.fromkeys(("realizable", "convex", "valid"), 0)
+    for name, outline in outlines().items():
+        question = name.partition(".")[2]
+        longest[question] = max(longest[question], length_of(outline)[0])
+    assert (longest["realizable"], longest["valid"]) == (int(said), int(valid))
+
+
 @every_refutation
 def test_every_step_is_used(name: str) -> None:
     items = [*explanation(name).items()]

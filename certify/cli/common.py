@@ -82,8 +82,10 @@ def require_question(name: str) -> str:
 
 
 def _known(_context: click.Context, _parameter: click.Parameter, value: Any) -> Any:
-    if value is None or isinstance(value, str):
-        return value and require_pattern(value)
+    if value is None:
+        return None
+    if isinstance(value, str):
+        return require_pattern(value)
     return tuple(map(require_pattern, value))
 
 

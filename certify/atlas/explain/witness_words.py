@@ -368,7 +368,7 @@ def as_latex(told: Page) -> str:
 
 _HEAD_OF_PAGE = LATEX_HEAD.replace(
     r"\begin{document}",
-    "\\usepackage[margin=15mm]{geometry}\n\\setlength{\\parskip}{1ex}\n\\pagestyle{empty}\n"
+    "\\geometry{margin=15mm}\n\\setlength{\\parskip}{1ex}\n\\pagestyle{empty}\n"
     "\\begin{document}\n\\small",
 )
 
