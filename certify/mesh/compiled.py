@@ -1,0 +1,16 @@
+"""One way to compile: by numba, with floating-point operations as they are written."""
+
+from collections.abc import Callable
+from typing import Any, TypeVar, cast
+
+import numba
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+def compiled(function: F) -> F:
+    """Return the function as machine code, kept on disk between runs.
+
+    Error bounds rest on IEEE arithmetic: nothing may be reordered or contracted (no fastmath).
+    """
+    return cast("F", numba.njit(cache=True, fastmath=False, error_model="numpy")(function))
