@@ -13,7 +13,7 @@ from certify.kernel.check import Verdict
 from certify.kernel.chirotope import Point
 from certify.kernel.theorems import Outcome
 from certify.manifest import NAME, Manifest
-from certify.mesh.quality import jacobian_lower_bound, scaled_jacobians
+from certify.mesh.quality import jacobian_bounds, scaled_jacobians
 
 
 def json_text(value: object, indent: str = "") -> str:
@@ -90,7 +90,7 @@ def _evidence(question: str, answer: Answer, steps: Mapping[str, int | None]) ->
         return {}
     record: dict[str, Any] = {"points": coordinates(answer.points)}
     if question == "valid":
-        record["jacobian_at_least"] = rational(jacobian_lower_bound(answer.points))
+        record["jacobian_at_least"] = rational(jacobian_bounds(answer.points)[0])
         record["scaled_jacobians"] = [round(j, 4) for j in scaled_jacobians(answer.points)]
     return record
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from certify.kernel.certificate import Certificate, Yes
 from certify.kernel.chirotope import Point
-from certify.mesh.quality import DEPTH, jacobian_lower_bound, scaled_jacobians
+from certify.mesh.quality import NEAR, jacobian_bounds, scaled_jacobians
 from tests.geometry import CUBE, PLACEMENTS, Placement, exact, examples, leibniz, near
 
 Points = tuple[Point, ...]
@@ -42,16 +42,17 @@ def neighbours(vertex: int) -> list[int]:
 
 @examples(25)
 @given(st.one_of(PLACEMENTS, near(CUBE, 10, 4)))
-def test_lower_bound_is_one(placement: Placement) -> None:
+def test_bounds_are_bounds(placement: Placement) -> None:
     points = exact(placement)
-    bound = jacobian_lower_bound(points)
-    assert all(bound <= jacobian_at(points, place) for place in GRID)
+    least, most = jacobian_bounds(points)
+    assert least <= most <= min(jacobian_at(points, place) for place in product((0, 1), repeat=3))
+    assert all(least <= jacobian_at(points, place) for place in GRID)
 
 
 @pytest.mark.parametrize("scale", [1, 10, Fraction(1, 7)])
 def test_lower_bound_of_a_box_is_its_volume(scale: Fraction) -> None:
     points = exact([(scale * x, 2 * scale * y, z) for x, y, z in CUBE])
-    assert jacobian_lower_bound(points) == 2 * scale**2
+    assert jacobian_bounds(points)[0] == 2 * scale**2
 
 
 @examples(10)
@@ -59,7 +60,7 @@ def test_lower_bound_of_a_box_is_its_volume(scale: Fraction) -> None:
 def test_lower_bound_is_a_volume(placement: Placement, scale: Fraction) -> None:
     points = exact(placement)
     larger = exact([[scale * x for x in point] for point in points])
-    assert jacobian_lower_bound(larger) == scale**3 * jacobian_lower_bound(points)
+    assert jacobian_bounds(larger)[0] == scale**3 * jacobian_bounds(points)[0]
 
 
 def test_lower_bound_is_sharp_at_corners() -> None:
@@ -67,7 +68,7 @@ def test_lower_bound_is_sharp_at_corners() -> None:
     points = exact([*CUBE[:6], (Fraction(4, 5),) * 3, CUBE[7]])
     least = min(jacobian_at(points, place) for place in GRID)
     assert least == jacobian_at(points, (Fraction(1),) * 3) > 0
-    assert jacobian_lower_bound(points) == least
+    assert jacobian_bounds(points)[0] == least
 
 
 def test_lower_bound_comes_near_inside() -> None:
@@ -76,16 +77,19 @@ def test_lower_bound_comes_near_inside() -> None:
     twisted = [(2 * x - y, x + 2 * y, z) if z else (2 * x, 2 * y, z) for x, y, z in turned]
     points = exact(twisted)
     middle = jacobian_at(points, (Fraction(1, 2),) * 3)
-    assert 0 < jacobian_lower_bound(points) <= middle < jacobian_at(points, (Fraction(0),) * 3)
-    assert DEPTH > 1
+    least, most = jacobian_bounds(points)
+    assert 0 < least <= middle < jacobian_at(points, (Fraction(0),) * 3)
+    assert most - least <= NEAR * most
 
 
-def test_lower_bound_is_positive_for_valid_witnesses(certificates: dict[str, Certificate]) -> None:
+def test_bounds_of_valid_witnesses_are_positive_and_near(certificates: dict[str, Certificate]) -> None:
     for certificate in certificates.values():
         answer = certificate.answers["valid"]
         if isinstance(answer, Yes):
-            bound = jacobian_lower_bound(answer.points)
-            assert 0 < bound <= min(jacobian_at(answer.points, place) for place in GRID[::7])
+            least, most = jacobian_bounds(answer.points)
+            assert 0 < least <= most
+            assert most - least <= NEAR * most
+            assert least <= min(jacobian_at(answer.points, place) for place in GRID[::7])
 
 
 @examples(100)

@@ -2,28 +2,51 @@
 
 from collections.abc import Sequence
 from fractions import Fraction
+from heapq import heappop, heappush
+from itertools import count, product
 from math import lcm, prod, sqrt
 
 from certify.kernel.chirotope import Point, denominators, determinant
 from certify.kernel.hexahedron import CORNERS
-from certify.kernel.jacobian import bernstein_coefficients, halves
+from certify.kernel.jacobian import Coefficients, bernstein_coefficients, halves
 from certify.kernel.validity import across
 
-DEPTH = 3
-"""Subdivisions behind the lower bound; each brings it closer to the minimum."""
+NEAR = Fraction(1, 20)
+"""The bounds of the least Jacobian are to differ by no more than this part of the upper one."""
+
+BOXES = 512
+"""More parts of the cube are not looked at."""
+
+_CORNERS = tuple(product((0, 2), repeat=3))
 
 
-def jacobian_lower_bound(points: Sequence[Point]) -> Fraction:
-    """Return an exact lower bound of the Jacobian on the closed unit cube, in volume units.
+def jacobian_bounds(points: Sequence[Point]) -> tuple[Fraction, Fraction]:
+    """Return exact bounds of the least Jacobian on the closed unit cube, in volume units.
 
-    It is the least Bernstein coefficient on the 8^DEPTH parts of the cube (see jacobian.py).
+    The lower one is the least Bernstein coefficient on the parts of a subdivided cube, the upper
+    one the least value at their corners (see kernel/jacobian.py). The part with the least
+    coefficient is divided next.
     """
-    boxes = [bernstein_coefficients(points)]
     unit = 8 * prod(denominators(points))
-    for axis in (0, 1, 2) * DEPTH:
+    first = bernstein_coefficients(points)
+    counter = count()
+    parts = [(Fraction(min(first.values()), unit), next(counter), unit, first)]
+    upper = Fraction(min(first[corner] for corner in _CORNERS), unit)
+    while upper - parts[0][0] > NEAR * abs(upper) and len(parts) < BOXES:
+        _, _, unit, box = heappop(parts)
+        for part in _eighths(box):
+            least = Fraction(min(part.values()), 64 * unit)
+            upper = min(upper, Fraction(min(part[c] for c in _CORNERS), 64 * unit))
+            heappush(parts, (least, next(counter), 64 * unit, part))
+    return parts[0][0], upper
+
+
+def _eighths(box: Coefficients) -> list[Coefficients]:
+    """Return the coefficients, times 64, on the eight parts of a box halved along each axis."""
+    boxes = [box]
+    for axis in range(3):
         boxes = [half for box in boxes for half in halves(box, axis)]
-        unit *= 4
-    return Fraction(min(min(box.values()) for box in boxes), unit)
+    return boxes
 
 
 def scaled_jacobians(points: Sequence[Point]) -> list[float]:

@@ -24,7 +24,7 @@ from certify.kernel.cube import (
 from certify.kernel.evidence import certificate_file
 from certify.kernel.hexahedron import CORNERS, FACETS, SYMMETRIES, VERTICES, image
 from certify.kernel.triangulation import label, orientation
-from certify.mesh.quality import jacobian_lower_bound, scaled_jacobians
+from certify.mesh.quality import jacobian_bounds, scaled_jacobians
 from certify.paper import printed_status
 from certify.report import coordinates, rational
 
@@ -141,7 +141,7 @@ class Pattern:
     @cached_property
     def jacobian_bound(self) -> str:
         """An exact lower bound of its Jacobian."""
-        return str(rational(jacobian_lower_bound(self._valid))) if self._valid else ""
+        return str(rational(jacobian_bounds(self._valid)[0])) if self._valid else ""
 
     @property
     def _valid(self) -> tuple[Point, ...]:
