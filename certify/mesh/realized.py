@@ -19,6 +19,11 @@ them (the lemma of certify/kernel/embedding.py, whose proof holds for triangles 
 they are not degenerate; and they are faces of tetrahedra that are not). So the signs of the 56
 quintuples, looked up in a table of 56 * 3^5 sets of boundaries, tell which of the 64 boundaries are
 embedded, and a comparison of bits tells which of their triangulations have the right signs.
+
+A *boundary tetrahedron* has the four vertices of one facet. A triangulation without further points
+that has some is one of ours with boundary tetrahedra laid on it, each of which exchanges the
+diagonal of its facet: the outer edge of such a tetrahedron lies in no other, so it meets the others
+in two triangles, and the rest is a ball. The lemma holds for these as well.
 """
 
 from dataclasses import dataclass
@@ -32,7 +37,13 @@ from numpy.typing import NDArray
 
 from certify.kernel.chirotope import QUADRUPLES, QUINTUPLES, dependence
 from certify.kernel.evidence import default_root
-from certify.kernel.hexahedron import BOUNDARIES, Simplex, boundary_triangles
+from certify.kernel.hexahedron import (
+    BOUNDARIES,
+    FACETS,
+    Simplex,
+    boundary_triangles,
+    sorted_with_sign,
+)
 from certify.mesh.compiled import compiled
 from certify.mesh.instances import QUADRUPLE_INDEX, Instance, instances
 from certify.mesh.signs import Numbers, Signs
@@ -79,7 +90,8 @@ def realized(chirotopes: Signs, root: Path | None = None) -> Booleans:
     """Return which labelled triangulations are realized, by the signs (n, 70) of the points."""
     tables = _tables(root or default_root())
     out = np.zeros((len(chirotopes), len(tables.needs)), np.bool_)
-    _compare(chirotopes, tables.quintuples, tables.crossed, tables.needs, tables.starts, out)
+    excluded = _crossed(chirotopes, tables.quintuples, tables.crossed)
+    _compare(chirotopes, excluded, tables.needs, tables.starts, out)
     return out
 
 
@@ -100,6 +112,38 @@ def fillable(found: Booleans, root: Path | None = None) -> Booleans:
         found, _tables(root or default_root()).starts[:-1], axis=1
     )
     return out
+
+
+def fillable_at_all(chirotopes: Signs, root: Path | None = None) -> Booleans:
+    """Return which of the 64 boundaries can be filled, be it with boundary tetrahedra: (n, 64).
+
+    That a boundary which is none of these has no triangulation without further points rests on the
+    theorem ``exactly-174``: there are no others than the 6,966.
+    """
+    tables = _tables(root or default_root())
+    oriented = np.zeros((len(chirotopes), len(tables.needs)), np.bool_)
+    nothing = np.zeros(len(chirotopes), np.uint64)
+    _compare(chirotopes, nothing, tables.needs, tables.starts, oriented)
+    inside = fillable(oriented, root)
+    laid = [chirotopes[:, index] * parity for index, parity in _FACET_SIGNS]
+    out = np.zeros_like(inside)
+    for outer, flipped in product(range(len(BOUNDARIES)), repeat=2):
+        own = inside[:, outer ^ flipped]
+        for facet, signs in enumerate(laid):
+            bit = 1 << (len(laid) - 1 - facet)
+            if flipped & bit:
+                own = own & (signs == (-1 if outer & bit else 1))
+        out[:, outer] |= own
+    at_all: Booleans = out & embedded(chirotopes)
+    return at_all
+
+
+_FACET_SIGNS = [(QUADRUPLE_INDEX[own], sign) for own, sign in map(sorted_with_sign, FACETS)]
+"""For each facet abcd its quadruple, and the sign of abcd relative to that.
+
+With the diagonal ac the triangle abc is seen counterclockwise from inside, so that the tetrahedron
+lies inside if its sign is positive; with bd, if it is negative.
+"""
 
 
 @dataclass(frozen=True)
@@ -187,14 +231,12 @@ def _crossed(chirotopes: Signs, quintuples: NDArray[np.int64], crossed: Words) -
 @compiled
 def _compare(
     chirotopes: Signs,
-    quintuples: NDArray[np.int64],
-    crossed: Words,
+    excluded: Words,
     needs: Words,
     starts: NDArray[np.int64],
     out: Booleans,
 ) -> None:
-    """Set for each chirotope the triangulations with embedded boundary and the right signs."""
-    excluded = _crossed(chirotopes, quintuples, crossed)
+    """Set for each chirotope the triangulations with the right signs and no excluded boundary."""
     have = np.zeros(4, np.uint64)
     for h in range(len(chirotopes)):
         have[:] = 0
