@@ -152,9 +152,7 @@ def _names(triangles: list[Face], facets: list[Face]) -> Names | None:
     make all choices of these equal.
     """
     diagonals = {frozenset(a & b) for a, b in combinations(triangles, 2) if a | b in facets}
-    edges = {
-        frozenset(edge) for own in triangles for edge in combinations(own, 2)
-    } - diagonals
+    edges = {frozenset(edge) for own in triangles for edge in combinations(own, 2)} - diagonals
     corner = min(frozenset().union(*facets))
     near = sorted(v for edge in edges if corner in edge for v in edge - {corner})
     if len(near) != 3:
