@@ -5,7 +5,7 @@ if its points realize triangulations only as in a mirror: then its vertices are 
 mirrored template, and what is found is what its mirror image realizes.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property, lru_cache
 from pathlib import Path
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from certify.kernel.certificate import PATTERN_NAMES
 from certify.kernel.chirotope import QUADRUPLES, Point
-from certify.kernel.hexahedron import CORNERS, Simplex, simplex, sorted_with_sign
+from certify.kernel.hexahedron import BOUNDARIES, CORNERS, Simplex, simplex, sorted_with_sign
 from certify.kernel.jacobian import bernstein_coefficients
 from certify.kernel.validity import across
 from certify.mesh.compiled import compiled
@@ -24,7 +24,7 @@ from certify.mesh.instances import QUADRUPLE_INDEX, Instance
 from certify.mesh.jacobian import positive
 from certify.mesh.quality import jacobian_bounds
 from certify.mesh.realized import Booleans, fillable, fillable_at_all, labelled, realized
-from certify.mesh.shapes import dihedral, mean_ratio, scaled_jacobians
+from certify.mesh.shapes import least_dihedral_angles, mean_ratios, scaled_jacobians
 from certify.mesh.signs import Floats, Signs, signs
 
 VALID = {1: "yes", -1: "no", 0: "undecided"}
@@ -54,11 +54,13 @@ class Best(NamedTuple):
 class Hexahedra:
     """Some hexahedra: an array (n, 8, 3) of float64 or of Fractions, vertex 1 first.
 
-    root: where the certificates are whose tetrahedra are asked for.
+    root: where the certificates are whose tetrahedra are asked for; boundaries: those of the 64
+    that are asked for, (64,).
     """
 
     points: NDArray[Any]
     root: Path
+    boundaries: Booleans = field(default_factory=lambda: np.ones(len(BOUNDARIES), np.bool_))
 
     @cached_property
     def _given(self) -> tuple[Signs, Booleans]:
@@ -81,20 +83,20 @@ class Hexahedra:
 
     @cached_property
     def realized(self) -> Booleans:
-        """Which labelled triangulations are realized: (n, 6966)."""
+        """Which labelled triangulations with the boundaries asked for are realized: (n, 6966)."""
         own = self._given[1].copy()
         own[self.mirrored] = realized(self.chirotopes[self.mirrored], self.root)
-        return own
+        return own & self.boundaries[[each.boundary for each in labelled(self.root)]]
 
     @cached_property
     def fillable(self) -> Booleans:
-        """Which of the 64 boundaries a realized triangulation fills: (n, 64)."""
+        """Which of the boundaries asked for a realized triangulation fills: (n, 64)."""
         return fillable(self.realized, self.root)
 
     @cached_property
     def fillable_at_all(self) -> Booleans:
-        """Which of the 64 boundaries can be filled, be it with boundary tetrahedra: (n, 64)."""
-        return fillable_at_all(self.chirotopes, self.root)
+        """Which of these can be filled, be it with boundary tetrahedra: (n, 64)."""
+        return fillable_at_all(self.chirotopes, self.root) & self.boundaries
 
     @cached_property
     def valid(self) -> Signs:
@@ -145,7 +147,14 @@ class Hexahedra:
         """The least dihedral angle and the mean ratio of all tetrahedra: (n, 70)."""
         own = self._figures[:, np.array(QUADRUPLES) - 1]
         flat = own.reshape(-1, 4, 3)
-        return dihedral(flat).reshape(own.shape[:2]), mean_ratio(flat).reshape(own.shape[:2])
+        shape = own.shape[:2]
+        return least_dihedral_angles(flat).reshape(shape), mean_ratios(flat).reshape(shape)
+
+    @property
+    def sizes(self) -> NDArray[np.int64]:
+        """The number of tetrahedra of each labelled triangulation: (6966,)."""
+        found: NDArray[np.int64] = (_rows(self.root) >= 0).sum(axis=1)
+        return found
 
     @cached_property
     def dihedrals(self) -> Floats:
