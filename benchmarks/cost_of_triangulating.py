@@ -51,7 +51,8 @@ def main(number: int) -> None:
     print(f"{number} hexahedra, {found.sum()} triangulations, as many by TOPCOM")
     print(f"certify.mesh.triangulations: {number / own:.0f} hexahedra a second")
     print(
-        f"TOPCOM takes {topcom / own:.0f} times as long, without start-up {(topcom - start) / own:.0f}"
+        f"TOPCOM takes {topcom / own:.0f} times as long, "
+        f"without start-up {(topcom - start) / own:.0f}"
     )
 
 

@@ -207,7 +207,11 @@ def _print_patterns(patterns: Sequence[Record]) -> None:
     print_table(
         headings,
         (
-            [*(own[key] for key in keys), f"{own['least_dihedral']:.2f}°", f"{own['mean_ratio']:.4f}"]
+            [
+                *(own[key] for key in keys),
+                f"{own['least_dihedral']:.2f}°",
+                f"{own['mean_ratio']:.4f}",
+            ]
             for own in patterns
         ),
         "Dihedral angle and mean ratio are those of the best triangulation of a pattern",
@@ -257,8 +261,19 @@ def _print_summary(summary: Record, worst: Sequence[Record]) -> None:
         click.echo("their tetrahedra: {} to {}".format(*summary["tetrahedra"]))
     click.echo(f"hexahedra without a triangulation: {summary['without_triangulation']}")
     click.echo()
-    headings = ("hexahedron", "valid", "failing vertices", "scaled Jacobian", "realized", "dihedral")
-    print_table(headings, map(_worst, worst), "The worst")
+    headings = (
+        "hexahedron",
+        "valid",
+        "failing vertices",
+        "scaled Jacobian",
+        "realized",
+        "dihedral",
+    )
+    print_table(
+        headings,
+        map(_worst, worst),
+        "The worst; vertices are those at which the Jacobian is not positive",
+    )
 
 
 def _worst(row: Record) -> list[str]:

@@ -5,7 +5,7 @@ made here of the tetrahedra that the certificates name; that there are no others
 ``exactly-174``, which ``certify check-all`` replays.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
@@ -64,14 +64,30 @@ def instances(root: Path) -> tuple[Instance, ...]:
     Raises:
         Malformed: A certificate cannot be read, or has tetrahedra that are no triangulation.
     """
-    evidence = Evidence(root)
-    found = [own for name in PATTERN_NAMES for own in _instances_of(name, evidence)]
+    found = [own for item in certified(root).items() for own in _instances_of(*item)]
     return tuple(sorted(found, key=lambda own: own.boundary))
 
 
-def _instances_of(pattern: str, evidence: Evidence) -> Iterator[Instance]:
+@lru_cache(maxsize=4)
+def certified(root: Path) -> Mapping[str, tuple[Simplex, ...]]:
+    """Return the tetrahedra that the certificate of each pattern names.
+
+    Raises:
+        Malformed: A certificate cannot be read.
+    """
+    evidence = Evidence(root)
+    found = {}
+    for pattern in PATTERN_NAMES:
+        try:
+            content = evidence.certificate(pattern)
+            found[pattern] = read_certificate(pattern, content).tetrahedra
+        except Malformed as error:
+            raise Malformed(f"{certificate_file(pattern)}: {error}") from None
+    return found
+
+
+def _instances_of(pattern: str, tetrahedra: tuple[Simplex, ...]) -> Iterator[Instance]:
     """Yield the instances of a pattern, sorted by their tetrahedra."""
-    tetrahedra = read_certificate(pattern, evidence.certificate(pattern)).tetrahedra
     try:
         diagonals = boundary_diagonals(tetrahedra)
         shelling(tetrahedra)

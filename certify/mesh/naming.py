@@ -9,14 +9,13 @@ with other facets each.
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from itertools import combinations
 from pathlib import Path
 from typing import TypeAlias
 
 from certify.graphs import Tetrahedra
-from certify.kernel.certificate import PATTERN_NAMES, read_certificate
-from certify.kernel.evidence import Evidence, default_root
+from certify.kernel.certificate import PATTERN_NAMES
+from certify.kernel.evidence import default_root
 from certify.kernel.hexahedron import CORNERS, FACETS, SYMMETRIES, VERTICES, image, simplex
 from certify.kernel.triangulation import (
     NotATriangulation,
@@ -24,6 +23,7 @@ from certify.kernel.triangulation import (
     label,
     shelling,
 )
+from certify.mesh.instances import certified
 
 Face: TypeAlias = frozenset[str]
 """The names of the vertices of a tetrahedron, a facet, a triangle or an edge."""
@@ -75,7 +75,7 @@ def readings(
     solids = [frozenset(tetrahedron) for tetrahedron in tetrahedra]
     _require_eight(solids)
     marked = None if facets is None else {frozenset(facet) for facet in facets}
-    known = _certified(root or default_root())
+    known = {own: pattern for pattern, own in certified(root or default_root()).items()}
     found, faults = [], []
     for names in _hexahedra(_surface(solids), marked):
         own = tuple(sorted(simplex(tuple(names[v] for v in solid)) for solid in solids))
@@ -165,16 +165,6 @@ def _names(triangles: list[Face], facets: list[Face]) -> Names | None:
     named = {frozenset(names.get(v, 0) for v in facet) for facet in facets}
     joined = {frozenset(names.get(v, 0) for v in edge) for edge in edges}
     return names if (named, joined) == (_FACETS, _EDGES) else None
-
-
-@lru_cache(maxsize=4)
-def _certified(root: Path) -> dict[Tetrahedra, str]:
-    """Return the pattern of each certificate's tetrahedra."""
-    evidence = Evidence(root)
-    return {
-        read_certificate(pattern, evidence.certificate(pattern)).tetrahedra: pattern
-        for pattern in PATTERN_NAMES
-    }
 
 
 def _recognized(own: Tetrahedra, names: Names, known: Mapping[Tetrahedra, str]) -> Reading:

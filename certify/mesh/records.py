@@ -118,7 +118,8 @@ def _row(part: Hexahedra, index: int, name: str) -> Record:
     found = part.realized[index]
     own = np.flatnonzero(found)
     sizes = part.sizes[own]
-    best = part.described(index, int(part.dihedrals[index].argmax()), len(own)) if len(own) else None
+    place = int(part.dihedrals[index].argmax())
+    best = part.described(index, place, len(own)) if len(own) else None
     return {
         "hexahedron": name,
         "valid": VALID[int(part.valid[index])],

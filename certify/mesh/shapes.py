@@ -25,9 +25,7 @@ def least_dihedral_angles(points: Floats) -> Floats:
         points: An array (n, 4, 3) of floating-point numbers.
     """
     normals = np.stack([_normal(points, opposite) for opposite in range(4)], axis=1)
-    cosines = [
-        -(normals[:, i] * normals[:, j]).sum(axis=1) for i, j in combinations(range(4), 2)
-    ]
+    cosines = [-(normals[:, i] * normals[:, j]).sum(axis=1) for i, j in combinations(range(4), 2)]
     angles: Floats = np.degrees(np.arccos(np.clip(np.max(cosines, axis=0), -1, 1)))
     return angles
 
