@@ -1,0 +1,246 @@
+"""Is the Jacobian of trilinear hexahedra positive on the closed cube? For many at once, exactly.
+
+The Jacobian is positive where its 27 Bernstein coefficients are, and at the corners of a box it
+equals coefficients (certify/kernel/jacobian.py); boxes that this does not settle are halved. Three
+roads lead to the answer; each decides, or hands on:
+
+1. A filter. Let X be the largest difference of first coordinates along an edge, as computed, Y and
+   Z likewise, and F = XYZ. A coefficient is the mean of at most eight determinants of edges, each a
+   sum of six products. With u = 2^-53, as long as nothing over- or underflows, a product as
+   computed has at most 15 factors 1 + δ, |δ| <= u: three differences, two products, three sums in
+   the determinant, seven in the mean. So the coefficient's error is at most ((1+u)^15 - 1) 6F' for
+   the exact F', hence less than 92 u F. A halving replaces coefficients by means of them, which
+   keeps their error, and rounds twice numbers below 6.1 F in absolute value: it adds less than
+   12.3 u F. After at most HALVINGS = 30 halvings the error is below 461 u F, and that below
+   2^-44 F, also when this product is rounded. Nothing under- or overflows if the points are safe
+   (signs.py): all numbers are multiples of 2^-(876 + 3 + 60), and less than 2^910.
+2. A filter without error. If all coordinates are multiples of a power of two, g, then everything
+   after h halvings is a multiple of g^3 / (8 * 4^h), and at most 6 F: it is computed without error
+   as long as their quotient is below 2^53.
+3. Integers of any size, in the kernel's functions. An edge of the cube is then decided at once: on
+   it the Jacobian is a quadratic polynomial with the coefficients a, b, c, which is positive on
+   [0, 1] iff a > 0, c > 0, and b >= 0 or b^2 < ac. What is halved more than DEPTH times stays
+   undecided: that takes a Jacobian that is zero somewhere off the edges and negative nowhere near.
+"""
+
+from fractions import Fraction
+from itertools import product
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from certify.kernel.hexahedron import CORNERS
+from certify.kernel.jacobian import Coefficients, bernstein_coefficients, halves
+from certify.mesh.compiled import compiled
+from certify.mesh.signs import UNKNOWN, Floats, Numbers, Signs, numbers, safe
+
+HALVINGS = 30
+"""The filter halves a box no more often: ten times in each direction."""
+
+BOXES = 2000
+"""The filter looks at no more boxes."""
+
+DEPTH = 12
+"""Boxes smaller than 2^-12 are not tried."""
+
+_ROUNDING = 2.0**-44
+_LATTICE = 15
+
+Box: TypeAlias = NDArray[np.float64]
+"""27 Bernstein coefficients; that with the indices i, j, k is at 9i + 3j + k."""
+
+_AT = np.zeros((2, 2, 2), np.int64)
+for _vertex, _corner in CORNERS.items():
+    _AT[_corner] = _vertex - 1
+
+
+def positive(points: Numbers) -> Signs:
+    """Return for each hexahedron 1 if its Jacobian is positive on the closed cube, else -1.
+
+    A hexahedron that is not decided has a 0; its Jacobian would have to touch zero.
+
+    Args:
+        points: An array (n, 8, 3) of integers, floating-point numbers or Fractions; vertex 1 first,
+            in the order of the template, which is that of VTK.
+
+    Raises:
+        ValueError: The array has another shape, or what is in it are no finite numbers.
+
+    >>> positive([list(CORNERS.values())]).tolist()
+    [1]
+    """
+    given = numbers(points)
+    if given.ndim != 3 or given.shape[1:] != (8, 3):
+        raise ValueError(f"the array has the shape {given.shape} instead of (n, 8, 3)")
+    out = np.full(len(given), UNKNOWN, np.int8)
+    if given.dtype != object:
+        _filter(given, out)
+    for index in np.flatnonzero(out == UNKNOWN):
+        out[index] = decided(given[index])
+    return out
+
+
+def decided(points: NDArray[Any]) -> int:
+    """Return 1, -1 or 0 as :func:`positive` does, for one hexahedron, by integers of any size."""
+    coefficients = bernstein_coefficients([tuple(map(Fraction, p)) for p in points.tolist()])
+    if not all(_positive_on(*edge) for edge in _edges(coefficients)):
+        return -1
+    boxes = [coefficients]
+    for step in range(3 * DEPTH):
+        boxes = [half for box in boxes for half in halves(box, step % 3) if min(half.values()) <= 0]
+        if any(min(box[corner] for corner in _CORNERS) <= 0 for box in boxes):
+            return -1
+        if not boxes or len(boxes) > BOXES:
+            break
+    return 0 if boxes else 1
+
+
+_CORNERS = [*product((0, 2), repeat=3)]
+
+
+def _edges(coefficients: Coefficients) -> list[list[int]]:
+    """Return the three coefficients on each of the twelve edges of the cube."""
+    return [
+        [coefficients[(*ends[:axis], i, *ends[axis:])] for i in range(3)]
+        for axis in range(3)
+        for ends in product((0, 2), repeat=2)
+    ]
+
+
+def _positive_on(a: int, b: int, c: int) -> bool:
+    """Is a(1-x)^2 + 2bx(1-x) + cx^2 positive for all x in [0,1]?"""
+    return a > 0 and c > 0 and (b >= 0 or b * b < a * c)
+
+
+@compiled
+def _filter(points: Floats, out: Signs) -> None:
+    boxes, edges = workspace()
+    for h in range(len(points)):
+        out[h] = filtered_jacobian(points[h], boxes, edges)
+
+
+@compiled
+def workspace() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the scratch arrays that :func:`filtered_jacobian` wants."""
+    return np.empty((HALVINGS + 2, 27)), np.empty((3, 4, 3))
+
+
+@compiled
+def filtered_jacobian(points: Floats, boxes: NDArray[np.float64], edges: Floats) -> int:
+    """Return 1, -1 or UNKNOWN for eight points."""
+    if not safe(points):
+        return UNKNOWN
+    size = _coefficients(points, boxes[0], edges)
+    found = _subdivided(boxes, _ROUNDING * size, HALVINGS)
+    if found == UNKNOWN:
+        halvings = _halvings_without_error(points, size)
+        if halvings >= 0:
+            _coefficients(points, boxes[0], edges)
+            found = _subdivided(boxes, 0.0, halvings)
+    return found
+
+
+@compiled
+def _coefficients(points: Floats, box: Box, edges: Floats) -> float:
+    """Put the 27 Bernstein coefficients into ``box`` and return F."""
+    for a in range(2):
+        for b in range(2):
+            for axis in range(3):
+                edges[0, 2 * a + b, axis] = points[_AT[1, a, b], axis] - points[_AT[0, a, b], axis]
+                edges[1, 2 * a + b, axis] = points[_AT[a, 1, b], axis] - points[_AT[a, 0, b], axis]
+                edges[2, 2 * a + b, axis] = points[_AT[a, b, 1], axis] - points[_AT[a, b, 0], axis]
+    box[:] = 0.0
+    for v1 in range(2):
+        for w1 in range(2):
+            ax, ay, az = edges[0, 2 * v1 + w1]
+            for u2 in range(2):
+                for w2 in range(2):
+                    bx, by, bz = edges[1, 2 * u2 + w2]
+                    x, y, z = ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
+                    for u3 in range(2):
+                        for v3 in range(2):
+                            cx, cy, cz = edges[2, 2 * u3 + v3]
+                            place = 9 * (u2 + u3) + 3 * (v1 + v3) + w1 + w2
+                            box[place] += x * cx + y * cy + z * cz
+    for place in range(27):
+        ones = (place // 9 == 1) + (place // 3 % 3 == 1) + (place % 3 == 1)
+        box[place] *= 1.0 / (1 << ones)
+    size = 1.0
+    for axis in range(3):
+        most = 0.0
+        for direction in range(3):
+            for k in range(4):
+                most = max(most, abs(edges[direction, k, axis]))
+        size *= most
+    return size
+
+
+@compiled
+def _subdivided(boxes: NDArray[np.float64], error: float, halvings: int) -> int:
+    """Return the answer for the first box, whose coefficients have at most this error.
+
+    The boxes that wait are a stack; how often one was halved is on another.
+    """
+    depths = np.zeros(len(boxes), np.int64)
+    top, looked = 1, 0
+    while top:
+        top, looked = top - 1, looked + 1
+        box, depth = boxes[top], depths[top]
+        least = box[0]
+        for place in range(1, 27):
+            least = min(least, box[place])
+        if least > error:
+            continue
+        for place in (0, 2, 6, 8, 18, 20, 24, 26):
+            if box[place] <= -error:
+                return -1
+        if depth == halvings or looked > BOXES:
+            return UNKNOWN
+        for place in (0, 2, 6, 8, 18, 20, 24, 26):
+            if box[place] <= error:
+                return UNKNOWN
+        _halve(box, boxes[top + 1], depth % 3)
+        depths[top] = depths[top + 1] = depth + 1
+        top += 2
+    return 1
+
+
+@compiled
+def _halve(box: Box, other: Box, axis: int) -> None:
+    """Replace the coefficients of a box by those of its lower half, and give the upper's."""
+    step = (9, 3, 1)[axis]
+    for i in range(9):
+        start = (i, 9 * (i // 3) + i % 3, 3 * i)[axis]
+        a, b, c = box[start], box[start + step], box[start + 2 * step]
+        ab, bc = 0.5 * (a + b), 0.5 * (b + c)
+        middle = 0.5 * (ab + bc)
+        box[start + step], box[start + 2 * step] = ab, middle
+        other[start], other[start + step], other[start + 2 * step] = middle, bc, c
+
+
+@compiled
+def _halvings_without_error(points: Floats, size: float) -> int:
+    """Return how many halvings are exact, for safe points; -1 if the coefficients are not."""
+    most, bits = 0.0, 0
+    for point in points:
+        for x in point:
+            most = max(most, abs(x))
+    if most == 0.0 or size == 0.0:
+        return HALVINGS
+    exponent = np.int64(np.ceil(np.log2(most))) + 1
+    scale = 2.0 ** (_LATTICE - exponent)
+    for point in points:
+        for x in point:
+            whole = np.int64(x * scale)
+            if whole != x * scale:
+                return -1
+            bits |= whole
+    unit = 1.0 / scale
+    while not bits & 1:
+        bits, unit = bits >> 1, 2.0 * unit
+    halvings = -1
+    room = 48.0 * (size / unit / unit / unit)
+    while halvings < HALVINGS and room < 2.0**53:
+        halvings, room = halvings + 1, 4.0 * room
+    return halvings
