@@ -16,12 +16,11 @@ from numpy.typing import NDArray
 
 from certify.kernel.certificate import PATTERN_NAMES
 from certify.kernel.chirotope import QUADRUPLES, Point
-from certify.kernel.hexahedron import BOUNDARIES, CORNERS, Simplex, simplex, sorted_with_sign
-from certify.kernel.jacobian import bernstein_coefficients
+from certify.kernel.hexahedron import BOUNDARIES, CORNERS, Simplex, sorted_with_sign
 from certify.kernel.validity import across
 from certify.mesh.compiled import compiled
 from certify.mesh.instances import QUADRUPLE_INDEX, Instance
-from certify.mesh.jacobian import positive
+from certify.mesh.jacobian import failing_edges, least, positive
 from certify.mesh.quality import jacobian_bounds
 from certify.mesh.realized import Booleans, fillable, fillable_at_all, labelled, realized
 from certify.mesh.shapes import least_dihedral_angles, mean_ratios, scaled_jacobians
@@ -29,9 +28,6 @@ from certify.mesh.signs import Floats, Signs, signs
 
 VALID = {1: "yes", -1: "no", 0: "undecided"}
 """What certify.mesh.jacobian.positive says, in words."""
-
-NONE = -1.0
-"""Stands for the angle of a triangulation that is not realized."""
 
 LONGEST = 15
 """The largest triangulations have so many tetrahedra."""
@@ -110,17 +106,13 @@ class Hexahedra:
         return np.stack(found, axis=1)
 
     def edges(self, index: int) -> list[Simplex]:
-        """Return the edges of a hexahedron on which the Jacobian is not positive everywhere.
+        """Return the edges of a hexahedron on which the Jacobian is not positive everywhere."""
+        return [] if self.valid[index] > 0 else failing_edges(self.points[index])
 
-        On an edge it is a quadratic polynomial with Bernstein coefficients a, b, c. It is positive
-        iff a > 0, c > 0 and, if b < 0, also b^2 < ac: then its least value, which it has where
-        t : 1-t is a-b : c-b, is (ac - b^2) / (a - 2b + c).
-        """
-        if self.valid[index] > 0:
-            return []
-        found = bernstein_coefficients(self.exact(index))
-        rows = [(edge, *(found[place] for place in places)) for edge, places in _EDGES.items()]
-        return [edge for edge, a, b, c in rows if min(a, c) <= 0 or (b < 0 and b**2 >= a * c)]
+    @cached_property
+    def jacobian_at_least(self) -> Floats:
+        """A lower bound of the Jacobian on the closed cube, positive if it is valid: (n,)."""
+        return least(self.points)
 
     def jacobian_bounds(self, index: int) -> tuple[Fraction, Fraction]:
         """Return exact bounds of the least Jacobian of a hexahedron; see quality.py."""
@@ -150,32 +142,22 @@ class Hexahedra:
         shape = own.shape[:2]
         return least_dihedral_angles(flat).reshape(shape), mean_ratios(flat).reshape(shape)
 
-    @property
-    def sizes(self) -> NDArray[np.int64]:
-        """The number of tetrahedra of each labelled triangulation: (6966,)."""
-        found: NDArray[np.int64] = (_rows(self.root) >= 0).sum(axis=1)
-        return found
-
     @cached_property
-    def dihedrals(self) -> Floats:
-        """The least dihedral angle of each realized triangulation, else NONE: (n, 6966)."""
-        return _least(self.realized, self._tetrahedra[0], _rows(self.root))
-
-    def described(self, index: int, place: int, count: int) -> Best:
-        """Return a realized triangulation as the best of so many."""
-        rows = _rows(self.root)[place]
-        ratio = self._tetrahedra[1][index, rows[rows >= 0]].min()
-        own = labelled(self.root)[place]
-        return Best(own, count, float(self.dihedrals[index, place]), float(ratio))
+    def _dihedrals(self) -> Floats:
+        """The least dihedral angle of each realized triangulation: (n, 6966)."""
+        return _least(self.realized, self._tetrahedra[0], _columns(self.root)[0])
 
     def best(self, index: int) -> list[Best]:
         """Return the best triangulation of each pattern that is realized, the smallest first."""
+        tetrahedra, patterns = _columns(self.root)
+        places = np.flatnonzero(self.realized[index])
+        ordered = places[np.lexsort((-self._dihedrals[index, places], patterns[places]))]
+        _, first, counts = np.unique(patterns[ordered], return_index=True, return_counts=True)
         found = []
-        for places in _patterns(self.root).values():
-            count = int(self.realized[index, places].sum())
-            if count:
-                best = places[self.dihedrals[index, places].argmax()]
-                found.append(self.described(index, int(best), count))
+        for place, count in zip(ordered[first].tolist(), counts.tolist(), strict=True):
+            own = labelled(self.root)[place]
+            ratio = self._tetrahedra[1][index, tetrahedra[place, : len(own.signs)]].min()
+            found.append(Best(own, count, float(self._dihedrals[index, place]), float(ratio)))
         return found
 
 
@@ -187,47 +169,29 @@ _CORNERS = [
 """For each corner the quadruple of it and its neighbours, with its sign in the reference cube."""
 
 
-def _edges() -> dict[Simplex, list[tuple[int, ...]]]:
-    """Return for each edge of the template where its three Bernstein coefficients are."""
-    found = {}
-    for vertex, corner in CORNERS.items():
-        for axis in range(3):
-            if corner[axis] == 0:
-                start = [2 * x for x in corner]
-                places = [(*start[:axis], i, *start[axis + 1 :]) for i in range(3)]
-                found[simplex((vertex, across(vertex, axis)))] = places
-    return dict(sorted(found.items()))
-
-
-_EDGES = _edges()
-
-
 @lru_cache(maxsize=4)
-def _rows(root: Path) -> NDArray[np.int64]:
-    """Return the places of the tetrahedra of each labelled triangulation, then -1: (6966, 15)."""
-    table = np.full((len(labelled(root)), LONGEST), -1)
-    for row, own in zip(table, labelled(root), strict=True):
-        row[: len(own.signs)] = [QUADRUPLE_INDEX[tetrahedron] for tetrahedron in own.tetrahedra]
-    return table
+def _columns(root: Path) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return the places of the tetrahedra of each labelled triangulation, and those of patterns.
 
-
-@lru_cache(maxsize=4)
-def _patterns(root: Path) -> dict[str, NDArray[np.int64]]:
-    """Return the places of each pattern's labelled triangulations, the smallest patterns first."""
-    names = np.array([own.pattern for own in labelled(root)])
-    return {pattern: np.flatnonzero(names == pattern) for pattern in PATTERN_NAMES}
+    They are an array (6966, 15), whose rows are filled up with a place that is repeated, and one
+    (6966,) of numbers that count the patterns from the smallest.
+    """
+    every = labelled(root)
+    tetrahedra = np.empty((len(every), LONGEST), np.int64)
+    for row, own in zip(tetrahedra, every, strict=True):
+        places = [QUADRUPLE_INDEX[tetrahedron] for tetrahedron in own.tetrahedra]
+        row[:] = (*places, *[places[0]] * (LONGEST - len(places)))
+    return tetrahedra, np.array([PATTERN_NAMES.index(own.pattern) for own in every])
 
 
 @compiled
-def _least(found: Booleans, values: Floats, rows: NDArray[np.int64]) -> Floats:
-    """Return the least value of the tetrahedra of each triangulation found, else NONE."""
-    out = np.full(found.shape, NONE)
+def _least(found: Booleans, values: Floats, places: NDArray[np.int64]) -> Floats:
+    """Return the least value at the places of each triangulation that is found."""
+    out = np.zeros(found.shape)
     for h in range(len(found)):
         for t in range(found.shape[1]):
             if found[h, t]:
-                least = np.inf
-                for q in rows[t]:
-                    if q >= 0:
-                        least = min(least, values[h, q])
-                out[h, t] = least
+                out[h, t] = np.inf
+                for place in places[t]:
+                    out[h, t] = min(out[h, t], values[h, place])
     return out

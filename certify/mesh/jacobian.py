@@ -23,6 +23,7 @@ roads lead to the answer; each decides, or hands on:
    undecided: that takes a Jacobian that is zero somewhere off the edges and negative nowhere near.
 """
 
+from collections.abc import Iterator
 from fractions import Fraction
 from itertools import product
 from typing import Any, TypeAlias
@@ -30,9 +31,12 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from certify.kernel.hexahedron import CORNERS
+from certify.kernel.chirotope import Point
+from certify.kernel.hexahedron import CORNERS, Simplex, simplex
 from certify.kernel.jacobian import Coefficients, bernstein_coefficients, halves
+from certify.kernel.validity import across
 from certify.mesh.compiled import compiled
+from certify.mesh.quality import jacobian_bounds
 from certify.mesh.signs import UNKNOWN, Floats, Numbers, Signs, numbers, safe
 
 HALVINGS = 30
@@ -40,6 +44,9 @@ HALVINGS = 30
 
 BOXES = 2000
 """The filter looks at no more boxes."""
+
+EIGHTHS = 6
+"""A lower bound is that of all parts of the cube halved twice in each direction."""
 
 DEPTH = 12
 """Boxes smaller than 2^-12 are not tried."""
@@ -81,10 +88,36 @@ def positive(points: Numbers) -> Signs:
     return out
 
 
+def least(points: Numbers) -> Floats:
+    """Return for each hexahedron a lower bound of its Jacobian on the closed cube: (n,).
+
+    It is positive if the Jacobian is, unless that is so small that no float is below it.
+
+    Args:
+        points: As for :func:`positive`; the bound is in volume units.
+    """
+    given = numbers(points)
+    out = np.full(len(given), np.nan)
+    if given.dtype != object:
+        _least(given, out)
+    for index in np.flatnonzero(np.isnan(out)):
+        out[index] = _below(jacobian_bounds(_kernels(given[index]))[0])
+    return out
+
+
+def _below(value: Fraction) -> float:
+    """Return a floating-point number at most as large, and next to it."""
+    try:
+        near = float(value)
+    except OverflowError:
+        return float(np.finfo(float).max) if value > 0 else -np.inf
+    return near if near <= value else float(np.nextafter(near, -np.inf))
+
+
 def decided(points: NDArray[Any]) -> int:
     """Return 1, -1 or 0 as :func:`positive` does, for one hexahedron, by integers of any size."""
-    coefficients = bernstein_coefficients([tuple(map(Fraction, p)) for p in points.tolist()])
-    if not all(_positive_on(*edge) for edge in _edges(coefficients)):
+    coefficients = bernstein_coefficients(_kernels(points))
+    if any(_failing(coefficients)):
         return -1
     boxes = [coefficients]
     for step in range(3 * DEPTH):
@@ -99,18 +132,37 @@ def decided(points: NDArray[Any]) -> int:
 _CORNERS = [*product((0, 2), repeat=3)]
 
 
-def _edges(coefficients: Coefficients) -> list[list[int]]:
-    """Return the three coefficients on each of the twelve edges of the cube."""
-    return [
-        [coefficients[(*ends[:axis], i, *ends[axis:])] for i in range(3)]
-        for axis in range(3)
-        for ends in product((0, 2), repeat=2)
-    ]
+def failing_edges(points: NDArray[Any]) -> list[Simplex]:
+    """Return the edges of one hexahedron on which its Jacobian is not positive everywhere."""
+    return sorted(_failing(bernstein_coefficients(_kernels(points))))
 
 
-def _positive_on(a: int, b: int, c: int) -> bool:
-    """Is a(1-x)^2 + 2bx(1-x) + cx^2 positive for all x in [0,1]?"""
-    return a > 0 and c > 0 and (b >= 0 or b * b < a * c)
+def _kernels(points: NDArray[Any]) -> list[Point]:
+    """Return points as the kernel takes them."""
+    return [tuple(map(Fraction, point)) for point in points.tolist()]
+
+
+def _failing(coefficients: Coefficients) -> Iterator[Simplex]:
+    """Yield the edges of the cube on which the Jacobian is not positive everywhere."""
+    for edge, places in _EDGES.items():
+        a, b, c = (coefficients[place] for place in places)
+        if a <= 0 or c <= 0 or (b < 0 and b * b >= a * c):
+            yield edge
+
+
+def _edges() -> dict[Simplex, list[tuple[int, ...]]]:
+    """Return for each edge of the cube where the three coefficients on it are."""
+    found = {}
+    for vertex, corner in CORNERS.items():
+        for axis in range(3):
+            if corner[axis] == 0:
+                end = tuple(2 * bit for bit in corner)
+                places = [(*end[:axis], i, *end[axis + 1 :]) for i in range(3)]
+                found[simplex((vertex, across(vertex, axis)))] = places
+    return found
+
+
+_EDGES = _edges()
 
 
 @compiled
@@ -118,6 +170,15 @@ def _filter(points: Floats, out: Signs) -> None:
     boxes, edges = workspace()
     for h in range(len(points)):
         out[h] = filtered_jacobian(points[h], boxes, edges)
+
+
+@compiled
+def _least(points: Floats, out: Floats) -> None:
+    boxes, edges = workspace()
+    for h in range(len(points)):
+        if safe(points[h]):
+            error = _ROUNDING * _coefficients(points[h], boxes[0], edges)
+            out[h] = _lower_bound(boxes, error)
 
 
 @compiled
@@ -204,6 +265,31 @@ def _subdivided(boxes: NDArray[np.float64], error: float, halvings: int) -> int:
         depths[top] = depths[top + 1] = depth + 1
         top += 2
     return 1
+
+
+@compiled
+def _lower_bound(boxes: NDArray[np.float64], error: float) -> float:
+    """Return a lower bound for the first box, whose coefficients have at most this error.
+
+    Boxes are halved EIGHTHS times, and on until the coefficients are positive, or one at a corner,
+    which is a value, is not.
+    """
+    depths = np.zeros(len(boxes), np.int64)
+    top, looked, bound = 1, 0, np.inf
+    while top:
+        top, looked = top - 1, looked + 1
+        box, depth = boxes[top], depths[top]
+        lowest, corner = box.min(), np.inf
+        for place in (0, 2, 6, 8, 18, 20, 24, 26):
+            corner = min(corner, box[place])
+        enough = lowest > error or corner <= error or looked > BOXES
+        if depth == HALVINGS or (depth >= EIGHTHS and enough):
+            bound = min(bound, lowest - error)
+        else:
+            _halve(box, boxes[top + 1], depth % 3)
+            depths[top] = depths[top + 1] = depth + 1
+            top += 2
+    return bound
 
 
 @compiled

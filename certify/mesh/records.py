@@ -115,11 +115,9 @@ def rows(
 
 
 def _row(part: Hexahedra, index: int, name: str) -> Record:
-    found = part.realized[index]
-    own = np.flatnonzero(found)
-    sizes = part.sizes[own]
-    place = int(part.dihedrals[index].argmax())
-    best = part.described(index, place, len(own)) if len(own) else None
+    patterns = part.best(index)
+    sizes = [len(own.instance.signs) for own in patterns]
+    best = max(patterns, key=lambda own: own.dihedral, default=None)
     return {
         "hexahedron": name,
         "valid": VALID[int(part.valid[index])],
@@ -128,10 +126,10 @@ def _row(part: Hexahedra, index: int, name: str) -> Record:
         "failing_corners": label(np.flatnonzero(part.corners[index]) + 1),
         "failing_edges": " ".join(label(edge) for edge in part.edges(index)),
         "mirrored": bool(part.mirrored[index]),
-        "realized": len(own),
-        "patterns": len({labelled(part.root)[place].pattern for place in own.tolist()}),
-        "fewest_tetrahedra": int(sizes.min()) if len(own) else None,
-        "most_tetrahedra": int(sizes.max()) if len(own) else None,
+        "realized": sum(own.realized for own in patterns),
+        "patterns": len(patterns),
+        "fewest_tetrahedra": min(sizes, default=None),
+        "most_tetrahedra": max(sizes, default=None),
         "filled_boundaries": int(part.fillable[index].sum()),
         "boundaries_filled_at_all": int(part.fillable_at_all[index].sum()),
         "best_pattern": best.instance.pattern if best else None,
