@@ -45,7 +45,7 @@ def _diagonals(_context: click.Context, _parameter: click.Parameter, value: str)
     for word in words:
         if word not in known:
             raise click.BadParameter(f"{word} is no diagonal of a facet; 13 is one.")
-    wanted = sorted({known[word] for word in words})
+    wanted: list[Simplex] = sorted({known[word] for word in words})
     if not any(boundary.issuperset(wanted) for boundary in BOUNDARIES):
         raise click.BadParameter("two of these are diagonals of the same facet.")
     return wanted
@@ -221,13 +221,13 @@ def _print_patterns(patterns: Sequence[Record]) -> None:
 
 
 def _print_boundaries(boundaries: Record) -> None:
-    filled, more, impossible = boundaries.values()
-    total = len(filled) + len(more) + len(impossible)
+    filled: list[str] = boundaries["filled"]
+    more: list[str] = boundaries["with_boundary_tetrahedra"]
+    impossible: list[str] = boundaries["impossible"]
     click.echo()
-    if total == 1:
-        (words,) = (*filled, *more, *impossible)
-        click.echo(f"the boundary with the diagonals {words}")
-    print_wrapped(f"boundaries filled by these: {len(filled)} of {total}")
+    print_wrapped(
+        f"boundaries filled by these: {len(filled)} of {len(filled) + len(more) + len(impossible)}"
+    )
     if more:
         print_wrapped(f"filled only with a tetrahedron on four vertices of a facet: {len(more)}")
         _print_columns(more)

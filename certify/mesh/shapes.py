@@ -33,7 +33,8 @@ def least_dihedral_angles(points: Floats) -> Floats:
 
 def _six_volumes(points: Floats) -> Floats:
     a, b, c = (points[:, i] - points[:, 0] for i in (1, 2, 3))
-    return np.abs((a * np.cross(b, c)).sum(axis=1))
+    out: Floats = np.abs((a * np.cross(b, c)).sum(axis=1))
+    return out
 
 
 def _normal(points: Floats, opposite: int) -> Floats:
