@@ -158,22 +158,22 @@ def _many(
 
 def _print_one(found: Record, restricted: bool) -> None:
     least, most = (Fraction(found["jacobian"][key]) for key in ("at_least", "at_most"))
-    click.echo(f"{printable(found['hexahedron'])}: {_validity(found)}")
+    print_wrapped(f"{printable(found['hexahedron'])}: {_validity(found)}")
+    click.echo(f"  least Jacobian    {_between(least, most)}")
+    scaled = " ".join(f"{value:6.3f}" for value in found["scaled_jacobians"])
+    click.echo(f"  scaled Jacobians {scaled}")
+    click.echo()
     if found["mirrored"]:
         print_wrapped(
-            "mirrored: the vertices are in the order of the mirrored template; what follows is "
+            "mirrored: these vertices are in the order of the mirrored template; what follows is "
             "about the mirror image"
         )
-    scaled = " ".join(f"{value:.3f}" for value in found["scaled_jacobians"])
-    print_wrapped(f"least Jacobian on the closed cube: {_between(least, most)}")
-    print_wrapped(f"scaled Jacobians at the vertices 1..8: {scaled}")
     asked = " with these diagonals" if restricted else ""
     print_wrapped(
-        f"{plural(found['realized'], 'triangulation')} of 6,966{asked} realized, "
+        f"{found['realized']} of the 6,966 labelled triangulations are realized{asked}, "
         f"in {plural(len(found['patterns']), 'pattern')}"
     )
     if found["patterns"]:
-        click.echo()
         _print_patterns(found["patterns"])
     _print_boundaries(found["boundaries"])
 
@@ -202,8 +202,9 @@ def _between(least: Fraction, most: Fraction) -> str:
 
 def _print_patterns(patterns: Sequence[Record]) -> None:
     """Print a table of the patterns, and the tetrahedra of the best of all."""
-    headings = ("pattern", "tetrahedra", "realized", "least dihedral", "mean ratio")
+    headings = ("pattern", "tetrahedra", "realized", "best: least dihedral", "mean ratio")
     keys = ("pattern", "tetrahedra", "realized")
+    click.echo()
     print_table(
         headings,
         (
@@ -214,27 +215,27 @@ def _print_patterns(patterns: Sequence[Record]) -> None:
             ]
             for own in patterns
         ),
-        "Dihedral angle and mean ratio are those of the best triangulation of a pattern",
     )
     best = max(patterns, key=lambda own: float(own["least_dihedral"]))
-    print_wrapped(f"the best: {best['pattern']}: {' '.join(best['best'])}", hanging=" " * 10)
+    print_wrapped(f"the best: {best['pattern']}: {' '.join(best['best'])}", hanging=" " * 15)
+    click.echo()
 
 
 def _print_boundaries(boundaries: Record) -> None:
     filled: list[str] = boundaries["filled"]
     more: list[str] = boundaries["with_boundary_tetrahedra"]
     impossible: list[str] = boundaries["impossible"]
-    click.echo()
-    print_wrapped(
-        f"boundaries filled by these: {len(filled)} of {len(filled) + len(more) + len(impossible)}"
-    )
+    total = len(filled) + len(more) + len(impossible)
+    print_wrapped(f"they fill {len(filled)} of {plural(total, 'triangulated boundary')}")
     if more:
-        print_wrapped(f"filled only with a tetrahedron on four vertices of a facet: {len(more)}")
+        print_wrapped(
+            f"{len(more)} more can be filled with tetrahedra on the four vertices of a facet"
+        )
         _print_columns(more)
     if impossible:
         print_wrapped(
-            f"filled by no triangulation without further points: {len(impossible)}, because there "
-            "are none but the 6,966 (theorem exactly-174; certify check-all replays it)"
+            f"{len(impossible)} have no triangulation without further points, because there are "
+            "none but the 6,966 (theorem patterns, replayed by certify check-all)"
         )
         _print_columns(impossible)
 
