@@ -110,7 +110,7 @@ def triangulate(
         fail(str(error), code=1)
     if cell is not None:
         if not 1 <= cell <= len(points):
-            fail(f"{file} has no hexahedron {cell}, but {plural(len(points), 'hexahedron')}", 2)
+            fail(f"there is no hexahedron {cell} in {file}; the last is {len(points)}", 2)
         points, names = points[cell - 1 : cell], names[cell - 1 : cell]
     wanted = boundaries_with(diagonals)
     if to is not None or len(points) > 1:
@@ -185,10 +185,10 @@ def _validity(found: Record) -> str:
     if found["valid"] == "undecided":
         return "undecided, whether the Jacobian is positive on the closed cube"
     corners, edges = found["failing_corners"], found["failing_edges"]
-    places = [f"vertices {' '.join(map(str, corners))}"] if corners else []
-    places += [f"edges {' '.join(edges)}"] if edges else []
-    where = " and the ".join(places) or "inside or on a facet, though at no vertex and on no edge"
-    return f"not valid, the Jacobian is not positive {'at the ' if places else ''}{where}"
+    places = [f"at {' '.join(map(str, corners))}"] if corners else []
+    places += [f"on {' '.join(edges)}"] if edges else []
+    where = " and ".join(places) or "inside or on a facet, though at every vertex and on every edge"
+    return f"not valid, the Jacobian is not positive {where}"
 
 
 def _between(least: Fraction, most: Fraction) -> str:
@@ -226,7 +226,7 @@ def _print_boundaries(boundaries: Record) -> None:
     more: list[str] = boundaries["with_boundary_tetrahedra"]
     impossible: list[str] = boundaries["impossible"]
     total = len(filled) + len(more) + len(impossible)
-    print_wrapped(f"they fill {len(filled)} of {plural(total, 'triangulated boundary')}")
+    print_wrapped(f"they fill {len(filled)} of {total} triangulations of the boundary")
     if more:
         print_wrapped(
             f"{len(more)} more can be filled with tetrahedra on the four vertices of a facet"
@@ -252,7 +252,7 @@ PER_LINE = 3
 def _print_summary(summary: Record, worst: Sequence[Record]) -> None:
     """Print what many hexahedra have in common, and the worst of them."""
     click.echo(
-        f"{plural(summary['hexahedra'], 'hexahedron')}: {summary['valid']} valid, "
+        f"{summary['hexahedra']} hexahedra: {summary['valid']} valid, "
         f"{summary['not_valid']} not valid, {summary['undecided']} undecided, "
         f"{summary['mirrored']} mirrored"
     )
