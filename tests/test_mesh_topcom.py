@@ -44,7 +44,7 @@ def moved_cubes() -> list[Points]:
 
 def frusta() -> list[Points]:
     """Two squares of different sizes, one pushed aside: all facets, or four, are plane."""
-    found = []
+    found: list[Points] = []
     for a, b, size, turned in product((-1, 0, 2), (0, 1), (1, 3, 4), (0, 1)):
         bottom = [(4 * x, 4 * y, 0) for x, y, _ in CUBE[:4]]
         top = [(a + size * x + turned * y, b + size * y - turned * x, 3) for x, y, _ in CUBE[:4]]

@@ -1,8 +1,8 @@
 """The command line: parse, call, print. What is true is decided in certify/kernel alone.
 
 One module for each group of commands: :mod:`checking`, :mod:`evidence`, :mod:`exporting`,
-:mod:`auditing`, :mod:`reading`, :mod:`drawing`, :mod:`doubting`, :mod:`building`; what they share
-is in :mod:`common`.
+:mod:`auditing`, :mod:`reading`, :mod:`drawing`, :mod:`meshing`, :mod:`doubting`, :mod:`building`;
+what they share is in :mod:`common`.
 """
 
 import os
@@ -23,6 +23,7 @@ from certify.cli import (
     drawing,
     evidence,
     exporting,
+    meshing,
     reading,
 )
 from certify.cli.common import fail
@@ -107,6 +108,8 @@ for command in (
     drawing.draw,
     drawing.atlas,
     exporting.export,
+    meshing.triangulate,
+    meshing.name,
     checking.replay,
     auditing.spheres,
     doubting.attack,

@@ -45,7 +45,7 @@ def _diagonals(_context: click.Context, _parameter: click.Parameter, value: str)
     for word in words:
         if word not in known:
             raise click.BadParameter(f"{word} is no diagonal of a facet; 13 is one.")
-    wanted = sorted({known[word] for word in words})
+    wanted: list[Simplex] = sorted({known[word] for word in words})
     if not any(boundary.issuperset(wanted) for boundary in BOUNDARIES):
         raise click.BadParameter("two of these are diagonals of the same facet.")
     return wanted
@@ -101,16 +101,21 @@ def triangulate(
     if to is not None:
         _require_table(to)
     with needing("mesh"):
+        from certify.kernel.evidence import Malformed
         from certify.mesh.hexahedra import Hexahedra
         from certify.mesh.reading import BadMesh, read_hexahedra
+        from certify.mesh.realized import labelled
         from certify.mesh.records import boundaries_with, record
     try:
         points, names = read_hexahedra(file)
+        labelled(folder)
     except BadMesh as error:
         fail(str(error), code=1)
+    except Malformed as error:
+        fail(f"rejected: {error}", code=1)
     if cell is not None:
         if not 1 <= cell <= len(points):
-            fail(f"{file} has no hexahedron {cell}, but {plural(len(points), 'hexahedron')}", 2)
+            fail(f"there is no hexahedron {cell} in {file}; the last is {len(points)}", 2)
         points, names = points[cell - 1 : cell], names[cell - 1 : cell]
     wanted = boundaries_with(diagonals)
     if to is not None or len(points) > 1:
@@ -158,22 +163,22 @@ def _many(
 
 def _print_one(found: Record, restricted: bool) -> None:
     least, most = (Fraction(found["jacobian"][key]) for key in ("at_least", "at_most"))
-    click.echo(f"{printable(found['hexahedron'])}: {_validity(found)}")
+    print_wrapped(f"{printable(found['hexahedron'])}: {_validity(found)}")
+    click.echo(f"  least Jacobian    {_between(least, most)}")
+    scaled = " ".join(f"{value:6.3f}" for value in found["scaled_jacobians"])
+    click.echo(f"  scaled Jacobians {scaled}")
+    click.echo()
     if found["mirrored"]:
         print_wrapped(
-            "mirrored: the vertices are in the order of the mirrored template; what follows is "
+            "mirrored: these vertices are in the order of the mirrored template; what follows is "
             "about the mirror image"
         )
-    scaled = " ".join(f"{value:.3f}" for value in found["scaled_jacobians"])
-    print_wrapped(f"least Jacobian on the closed cube: {_between(least, most)}")
-    print_wrapped(f"scaled Jacobians at the vertices 1..8: {scaled}")
     asked = " with these diagonals" if restricted else ""
     print_wrapped(
-        f"{plural(found['realized'], 'triangulation')} of 6,966{asked} realized, "
+        f"realized{asked}: {found['realized']} of the 6,966 labelled triangulations, "
         f"in {plural(len(found['patterns']), 'pattern')}"
     )
     if found["patterns"]:
-        click.echo()
         _print_patterns(found["patterns"])
     _print_boundaries(found["boundaries"])
 
@@ -185,10 +190,10 @@ def _validity(found: Record) -> str:
     if found["valid"] == "undecided":
         return "undecided, whether the Jacobian is positive on the closed cube"
     corners, edges = found["failing_corners"], found["failing_edges"]
-    places = [f"vertices {' '.join(map(str, corners))}"] if corners else []
-    places += [f"edges {' '.join(edges)}"] if edges else []
-    where = " and the ".join(places) or "inside or on a facet, though at no vertex and on no edge"
-    return f"not valid, the Jacobian is not positive {'at the ' if places else ''}{where}"
+    places = [f"at {' '.join(map(str, corners))}"] if corners else []
+    places += [f"on {' '.join(edges)}"] if edges else []
+    where = " and ".join(places) or "inside or on a facet, though at every vertex and on every edge"
+    return f"not valid, the Jacobian is not positive {where}"
 
 
 def _between(least: Fraction, most: Fraction) -> str:
@@ -202,8 +207,9 @@ def _between(least: Fraction, most: Fraction) -> str:
 
 def _print_patterns(patterns: Sequence[Record]) -> None:
     """Print a table of the patterns, and the tetrahedra of the best of all."""
-    headings = ("pattern", "tetrahedra", "realized", "least dihedral", "mean ratio")
+    headings = ("pattern", "tetrahedra", "realized", "best: least dihedral", "mean ratio")
     keys = ("pattern", "tetrahedra", "realized")
+    click.echo()
     print_table(
         headings,
         (
@@ -214,27 +220,25 @@ def _print_patterns(patterns: Sequence[Record]) -> None:
             ]
             for own in patterns
         ),
-        "Dihedral angle and mean ratio are those of the best triangulation of a pattern",
     )
     best = max(patterns, key=lambda own: float(own["least_dihedral"]))
-    print_wrapped(f"the best: {best['pattern']}: {' '.join(best['best'])}", hanging=" " * 10)
+    print_wrapped(f"the best: {best['pattern']}: {' '.join(best['best'])}", hanging=" " * 15)
+    click.echo()
 
 
 def _print_boundaries(boundaries: Record) -> None:
-    filled, more, impossible = boundaries.values()
+    filled: list[str] = boundaries["filled"]
+    more: list[str] = boundaries["with_boundary_tetrahedra"]
+    impossible: list[str] = boundaries["impossible"]
     total = len(filled) + len(more) + len(impossible)
-    click.echo()
-    if total == 1:
-        (words,) = (*filled, *more, *impossible)
-        click.echo(f"the boundary with the diagonals {words}")
     print_wrapped(f"boundaries filled by these: {len(filled)} of {total}")
     if more:
-        print_wrapped(f"filled only with a tetrahedron on four vertices of a facet: {len(more)}")
+        print_wrapped(f"filled only with tetrahedra on the four vertices of a facet: {len(more)}")
         _print_columns(more)
     if impossible:
         print_wrapped(
-            f"filled by no triangulation without further points: {len(impossible)}, because there "
-            "are none but the 6,966 (theorem exactly-174; certify check-all replays it)"
+            f"impossible without further points: {len(impossible)}; there are no triangulations "
+            "but the 6,966 (theorem patterns, replayed by certify check-all)"
         )
         _print_columns(impossible)
 
@@ -251,7 +255,7 @@ PER_LINE = 3
 def _print_summary(summary: Record, worst: Sequence[Record]) -> None:
     """Print what many hexahedra have in common, and the worst of them."""
     click.echo(
-        f"{plural(summary['hexahedra'], 'hexahedron')}: {summary['valid']} valid, "
+        f"{summary['hexahedra']} hexahedra: {summary['valid']} valid, "
         f"{summary['not_valid']} not valid, {summary['undecided']} undecided, "
         f"{summary['mirrored']} mirrored"
     )
@@ -315,8 +319,10 @@ def name(file: Path, root: Path | None, as_json: bool) -> None:
         found = readings(given.cells, given.facets, folder)
     except BadMesh as error:
         fail(str(error), code=1)
-    except (NotNamed, Malformed) as error:
+    except NotNamed as error:
         fail(f"{file}: {error}", code=1)
+    except Malformed as error:
+        fail(f"rejected: {error}", code=1)
     if as_json:
         print_json({"patterns": [_reading_record(own) for own in found]})
     else:

@@ -178,7 +178,7 @@ def write_mesh(path: Path, shown: Model) -> None:
         },
         field_data=_groups(shown.cells) if form.name == "gmsh22" else {},
     )
-    with _silence():
+    with silence():
         meshio.write(path, mesh, form.name, **form.options)
         path.write_bytes(_headed(path.read_bytes(), shown, form))
         _require_equal(path, shown.points, [cell for block in blocks for cell in block], form)
@@ -238,7 +238,7 @@ def _require_equal(
 
 
 @contextmanager
-def _silence() -> Iterator[None]:
+def silence() -> Iterator[None]:
     """Keep from the console what meshio says there about formats, and the warnings of numpy."""
     with redirect_stdout(StringIO()), redirect_stderr(StringIO()), catch_warnings():
         simplefilter("ignore")

@@ -2,7 +2,7 @@
 
 The 48 symmetries make of the 174 patterns 6,966 labelled triangulations of one hexahedron. They are
 made here of the tetrahedra that the certificates name; that there are no others is the theorem
-``exactly-174``, which ``certify check-all`` replays.
+``patterns``, which ``certify check-all`` replays.
 """
 
 from collections.abc import Iterator, Mapping

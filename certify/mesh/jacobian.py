@@ -321,7 +321,7 @@ def _halvings_without_error(points: Floats, size: float) -> int:
             whole = np.int64(x * scale)
             if whole != x * scale:
                 return -1
-            bits |= whole
+            bits |= int(whole)
     unit = 1.0 / scale
     while not bits & 1:
         bits, unit = bits >> 1, 2.0 * unit

@@ -13,10 +13,17 @@ from itertools import combinations
 from pathlib import Path
 from typing import TypeAlias
 
-from certify.graphs import Tetrahedra
 from certify.kernel.certificate import PATTERN_NAMES
 from certify.kernel.evidence import default_root
-from certify.kernel.hexahedron import CORNERS, FACETS, SYMMETRIES, VERTICES, image, simplex
+from certify.kernel.hexahedron import (
+    CORNERS,
+    FACETS,
+    SYMMETRIES,
+    VERTICES,
+    Simplex,
+    image,
+    simplex,
+)
 from certify.kernel.triangulation import (
     NotATriangulation,
     boundary_diagonals,
@@ -27,6 +34,9 @@ from certify.mesh.instances import certified
 
 Face: TypeAlias = frozenset[str]
 """The names of the vertices of a tetrahedron, a facet, a triangle or an edge."""
+
+Tetrahedra: TypeAlias = tuple[Simplex, ...]
+"""Those of a triangulation, sorted, with the vertices of the template."""
 
 Names: TypeAlias = Mapping[str, int]
 """The name of a vertex -> the vertex of the template, 1 to 8."""
@@ -164,7 +174,7 @@ def _names(triangles: list[Face], facets: list[Face]) -> Names | None:
         names |= dict.fromkeys(missing, fourth)
     named = {frozenset(names.get(v, 0) for v in facet) for facet in facets}
     joined = {frozenset(names.get(v, 0) for v in edge) for edge in edges}
-    return names if (named, joined) == (_FACETS, _EDGES) else None
+    return names if named == _FACETS and joined == _EDGES else None
 
 
 def _recognized(own: Tetrahedra, names: Names, known: Mapping[Tetrahedra, str]) -> Reading:

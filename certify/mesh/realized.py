@@ -118,7 +118,7 @@ def fillable_at_all(chirotopes: Signs, root: Path | None = None) -> Booleans:
     """Return which of the 64 boundaries can be filled, be it with boundary tetrahedra: (n, 64).
 
     That a boundary which is none of these has no triangulation without further points rests on the
-    theorem ``exactly-174``: there are no others than the 6,966.
+    theorem ``patterns``: there are no others than the 6,966.
     """
     tables = _tables(root or default_root())
     oriented = np.zeros((len(chirotopes), len(tables.needs)), np.bool_)

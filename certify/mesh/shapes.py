@@ -26,8 +26,15 @@ def least_dihedral_angles(points: Floats) -> Floats:
     """
     normals = np.stack([_normal(points, opposite) for opposite in range(4)], axis=1)
     cosines = [-(normals[:, i] * normals[:, j]).sum(axis=1) for i, j in combinations(range(4), 2)]
-    angles: Floats = np.degrees(np.arccos(np.clip(np.max(cosines, axis=0), -1, 1)))
-    return angles
+    angles = np.degrees(np.arccos(np.clip(np.max(cosines, axis=0), -1, 1)))
+    out: Floats = np.where(_six_volumes(points) == 0, 0, angles)
+    return out
+
+
+def _six_volumes(points: Floats) -> Floats:
+    a, b, c = (points[:, i] - points[:, 0] for i in (1, 2, 3))
+    out: Floats = np.abs((a * np.cross(b, c)).sum(axis=1))
+    return out
 
 
 def _normal(points: Floats, opposite: int) -> Floats:
@@ -51,8 +58,7 @@ def mean_ratios(points: Floats) -> Floats:
     """
     edges = [points[:, j] - points[:, i] for i, j in combinations(range(4), 2)]
     squares = sum((edge**2).sum(axis=1) for edge in edges)
-    six_volumes = np.abs((edges[0] * np.cross(edges[1], edges[2])).sum(axis=1))
-    out: Floats = 12 * (six_volumes / 2) ** (2 / 3) / np.where(squares == 0, 1, squares)
+    out: Floats = 12 * (_six_volumes(points) / 2) ** (2 / 3) / np.where(squares == 0, 1, squares)
     return out
 
 

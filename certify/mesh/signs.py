@@ -105,6 +105,8 @@ def numbers(points: Numbers) -> NDArray[Any]:
         if not np.isfinite(found).all():
             raise ValueError("a coordinate is not a finite number")
         return found
+    if given.dtype.kind in "iu" and np.abs(given.astype(np.float64)).max(initial=0) < 2**53:
+        return given.astype(np.float64)
     exact = np.array([_fraction(x) for x in given.ravel().tolist()], object).reshape(given.shape)
     try:
         found = exact.astype(np.float64)
