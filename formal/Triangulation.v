@@ -59,10 +59,12 @@ Definition cycle (joined : vertex -> vertex -> Prop) : Prop :=
 
 (** Discs. A triangle is a disc. A disc remains one if a triangle is glued to it along one edge of
     its rim, with a third vertex that is new, or along two consecutive edges of its rim, with a
-    third edge that is new. Every triangulated disc is made in this way: 2-discs are shellable.
-    (Take off triangles one by one. Let one at the rim be such that its removal would leave no
-    disc; then it has one edge in the rim and the opposite vertex too, and it cuts the disc in two
-    smaller ones. In each of them, by induction, some triangle that is not next to it can go.) *)
+    third edge that is new. This restricts nothing: every triangulated disc is made in this way.
+    (Let t be a triangle at the rim of a disc that has others. Then one of the others can be taken
+    off: let u be another one with an edge in the rim. If it cannot be taken off, then the vertex
+    opposite to that edge is in the rim too, and u cuts the disc in two. The part without t is
+    one triangle, which can be taken off; or go on in this part, with the triangle next to u in
+    the place of t.) *)
 Definition edge (D : list triangle) (a b : vertex) : Prop := exists c, face D a b c.
 Definition point (D : list triangle) (a : vertex) : Prop := exists b, edge D a b.
 Definition rim (D : list triangle) (a b : vertex) : Prop := exists! c, face D a b c.
