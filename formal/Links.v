@@ -335,7 +335,7 @@ Proof.
   assert (s : at_vertex v 2 = boundary_triangles v + count (used T) (filter (mem v) inner_edges)).
   { rewrite <- c. unfold at_vertex, inner_edges.
     rewrite (count_split (used T) (covers B)), !count_filter. f_equal; apply count_ext; intros f _.
-    - pose proof (boundary_used f) as u. destruct (mem v f), (covers B f); auto. simpl. now rewrite u.
+    - pose proof (boundary_used f) as u. destruct (mem v f), (covers B f); simpl; auto.
     - destruct (mem v f), (covers B f), (used T f); auto. }
   lia.
 Qed.
