@@ -23,6 +23,7 @@ Definition no (x : atom) : literal := (false, x).
 (** The quadruples that are no facet: what can be a tetrahedron. *)
 Definition is_facet (q : list vertex) : bool := existsb (fun f => subset q (vertices f)) facets.
 Definition inner : list (list vertex) := filter (fun q => negb (is_facet q)) (faces 4).
+Arguments inner : simpl never.
 Definition around (f : list vertex) : list (list vertex) := filter (subset f) inner.
 
 Section Formula.
@@ -192,8 +193,9 @@ Qed.
 Lemma count_inner g : count (used T) (filter g inner) = count (used T) (filter g (faces 4)).
 Proof.
   unfold inner. rewrite !count_filter. apply count_ext. intros q i.
-  pose proof (used_inner q) as u. unfold inner in u. rewrite filter_In in u.
-  destruct (is_facet q), (g q), (used T q); simpl in *; auto; intuition congruence.
+  assert (u : used T q = true -> is_facet q = false).
+  { intro u. apply used_inner, filter_In in u as [_ u]; auto. now apply negb_true_iff. }
+  destruct (used T q); [rewrite u by auto; reflexivity |]. now rewrite !andb_false_r.
 Qed.
 
 Lemma triangle_true c : In c triangle_clauses -> true_clause c.
@@ -259,8 +261,8 @@ Proof.
 Qed.
 Lemma sides_in c x y : In (x, y) (sides c) -> In x c /\ In y c.
 Proof.
-  destruct c as [| u [| v [| w [| z [|]]]]]; simpl; try tauto; intuition; try congruence;
-    match goal with H : (_, _) = (_, _) |- _ => injection H as <- <- end; tauto.
+  destruct c as [| u [| v [| w [| z [|]]]]]; simpl; try tauto; intro h;
+    repeat destruct h as [h | h]; try tauto; injection h as <- <-; tauto.
 Qed.
 Lemma sides_differ l c x y : is_cycle l c -> In (x, y) (sides c) -> x <> y.
 Proof.
@@ -285,7 +287,7 @@ Proof.
       { apply in_app_iff in i as [i | i]; auto. pose proof (sides_differ l c u v cyc i).
         destruct cyc as (inc & _). apply sides_in in i as [i i']. apply inc in i, i'.
         simpl. intuition congruence. }
-      simpl in k. repeat constructor; simpl; intuition congruence.
+      clear - ne k. simpl in k. repeat constructor; simpl; intuition congruence.
     - rewrite <- (h (increasing [u; v; a; b])).
       + apply used_same. intro w. rewrite in_increasing. simpl. tauto.
       + apply in_map_iff. now exists (u, v). }
@@ -322,9 +324,8 @@ Proof.
         assert (cov : covers B [o; a; b] = true).
         { apply existsb_exists. exists t. split; auto. rewrite subset_iff in *.
           intros v [<- | j]; auto. }
-        assert (u : used T [o; a; b] = true) by now apply (boundary_used B T tri closed).
-        apply (used_tetrahedron T (T_nodup B T tri)) in u as (q & iq & sq & uq).
-        assert (m : NoDup [a; b; o]) by (repeat constructor; simpl in *; intuition).
+        assert (m : NoDup [a; b; o]).
+        { clear - ne no. repeat constructor; simpl in *; intuition congruence. }
         pose proof cov as cov'. rewrite (covers_same B _ [a; b; o]) in cov' by (simpl; tauto).
         apply face_covers, (boundary B T tri) in cov' as (d & _ & ap); auto.
         exists o, d. split; [| apply ap; now left]. intro j. apply out in j as [_ j]. congruence.
@@ -338,7 +339,7 @@ Proof.
     { apply in_app_iff in j as [j | j]; [now apply cycles3_are | now apply cycles4_are]. }
     destruct (cycle_head free c cyc) as [x ix].
     rewrite <- (app_nil_r (sides c)) in h.
-    apply (forbidden_true a b free c [] o y x k); auto; [| simpl; tauto].
+    apply (forbidden_true a b free c [] o y x k); auto.
     intro j'. apply no. now apply cyc.
   - intro h. apply in_flat_map in h as (c & j & h). apply in_flat_map in h as (d & j' & h).
     destruct (mem (hd V1 free) c); [| destruct h].
@@ -377,7 +378,7 @@ Proof.
 Qed.
 Lemma count_bound n (l : list (list vertex)) : count (used T) (firstn n l) <= n.
 Proof.
-  rewrite count_length. etransitivity; [apply filter_length_le | apply firstn_le_length].
+  etransitivity; [apply count_le | apply firstn_le_length].
 Qed.
 Lemma in_combine_seq A (l : list A) : forall s n x, In (n, x) (combine (seq s (length l)) l) ->
   s <= n /\ nth_error l (n - s) = Some x.
@@ -418,8 +419,7 @@ Proof.
   { intros k j. unfold some_of_all. cbn [true_atom]. now rewrite firstn_all. }
   change (filter (mem v) inner) with (members Tetrahedra v) in e.
   change (filter (mem v) (inner_edges B)) with (members Edges v) in e.
-  assert (bound : count (used T) (members Edges v) <= length (members Edges v)).
-  { rewrite count_length. apply filter_length_le. }
+  assert (bound : count (used T) (members Edges v) <= length (members Edges v)) by apply count_le.
   unfold true_clause, true_literal.
   destruct h as [<- | [<- | []]]; rewrite existsb_app; cbn [existsb fst snd yes no].
   - destruct i as [| i]; cbn [existsb fst snd no]; rewrite ?d;

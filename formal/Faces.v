@@ -36,6 +36,8 @@ Lemma count_filter f g l : count f (filter g l) = count (fun x => g x && f x) l.
 Proof. induction l as [| x l IH]; simpl; auto. destruct (g x); simpl; lia. Qed.
 Lemma count_length f l : count f l = length (filter f l).
 Proof. induction l as [| x l IH]; simpl; auto. destruct (f x); simpl; lia. Qed.
+Lemma count_le f l : count f l <= length l.
+Proof. induction l as [| x l IH]; simpl; auto. destruct (f x); simpl; lia. Qed.
 Lemma count_split f g l : count f l = count (fun x => g x && f x) l + count (fun x => negb (g x) && f x) l.
 Proof. induction l as [| x l IH]; simpl; auto. destruct (g x); simpl; lia. Qed.
 Lemma count_zero f l : count f l = 0 <-> forall x, In x l -> f x = false.
@@ -98,6 +100,7 @@ Proof.
   - destruct (filter f l) as [| y m]; simpl in *; auto. apply in_app_iff. now right.
 Qed.
 Definition faces (k : nat) : list (list vertex) := choices k all_vertices.
+Arguments faces : simpl never.
 Lemma increasing_face f : NoDup f -> In (increasing f) (faces (length f)).
 Proof.
   intro h. rewrite <- (Permutation_length (increasing_permutation f h)). apply choices_filter.
