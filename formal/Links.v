@@ -184,6 +184,45 @@ Lemma three_triangles v q : In q (faces 4) ->
   count (fun f => subset f q) (filter (mem v) (faces 3)) = 3 * Nat.b2n (mem v q).
 Proof. revert q. apply map_ext_in_iff. destruct v; vm_compute; reflexivity. Qed.
 
+(** The number of tetrahedra at a triangle. *)
+Definition degree (T : list tetrahedron) (f : list vertex) : nat :=
+  count (used T) (filter (subset f) (faces 4)).
+
+Section Degrees.
+Variable T : list tetrahedron.
+Hypothesis T_nodup : forall t, In t T -> NoDup (vertices t).
+
+Lemma degree_apexes a b c ds : In [a; b; c] (faces 3) -> apexes T a b c ds ->
+  degree T [a; b; c] = length ds.
+Proof.
+  intros i [n h]. pose proof (face_nodup 3 _ ltac:(lia) i) as [m _].
+  unfold degree. rewrite <- faces_around, count_map, count_filter, count_length by auto.
+  apply Permutation_length, NoDup_Permutation; auto using NoDup_filter, all_vertices_nodup.
+  intro d. rewrite filter_In, h, (spans_used T T_nodup), andb_true_iff, negb_true_iff, mem_false.
+  rewrite (used_same T (increasing (d :: [a; b; c])) [a; b; c; d]).
+  - assert (e : NoDup [a; b; c; d] <-> ~ In d [a; b; c]).
+    { pose proof (Permutation_cons_append [a; b; c] d) as p. split.
+      - intro k. apply (Permutation_NoDup (Permutation_sym p)) in k. now inversion k.
+      - intro k. apply (Permutation_NoDup p). now constructor. }
+    pose proof (in_all_vertices d). tauto.
+  - intro x. rewrite in_increasing. simpl. tauto.
+Qed.
+Lemma used_degree f : used T f = true <-> degree T f <> 0.
+Proof.
+  unfold degree. split.
+  - intros h e. apply (used_tetrahedron T T_nodup) in h as (q & i & s & u).
+    rewrite count_zero in e. rewrite (e q) in u; [discriminate |]. now apply filter_In.
+  - intro h. apply count_some in h as (q & i & u). apply filter_In in i as [_ i].
+    now apply (used_subset T f q).
+Qed.
+End Degrees.
+
+Lemma facet_nodup f : In f facets -> NoDup (vertices f).
+Proof.
+  assert (e : forallb (fun f => distinct (vertices f)) facets = true) by reflexivity.
+  rewrite forallb_forall in e. intro i. now apply distinct_iff, e.
+Qed.
+
 Section Triangulation.
 Variable B : list triangle.
 Variable T : list tetrahedron.
@@ -197,8 +236,7 @@ Lemma facet_not_used f : In f facets -> used T (vertices f) = false.
 Proof.
   intro i. apply not_true_iff_false. intro h. apply existsb_exists in h as (t & j & h).
   apply (proper B T tri) in j as [n k]. apply (k f i), Permutation_sym, permutation_subset.
-  - revert i. assert (e : forallb (fun f => distinct (vertices f)) facets = true) by reflexivity.
-    rewrite forallb_forall in e. intro i. now apply distinct_iff, e.
+  - now apply facet_nodup.
   - now rewrite !length_vertices.
   - exact h.
 Qed.
@@ -240,46 +278,20 @@ Proof.
   unfold euler in e. rewrite !k in e by lia. exact e.
 Qed.
 
-(** The number of tetrahedra at a triangle. *)
-Definition degree (f : list vertex) : nat := count (used T) (filter (subset f) (faces 4)).
-
-Lemma degree_apexes a b c ds : In [a; b; c] (faces 3) -> apexes T a b c ds ->
-  degree [a; b; c] = length ds.
-Proof.
-  intros i [n h]. pose proof (face_nodup 3 _ ltac:(lia) i) as [m _].
-  unfold degree. rewrite <- faces_around, count_map, count_filter, count_length by auto.
-  apply Permutation_length, NoDup_Permutation; auto using NoDup_filter, all_vertices_nodup.
-  intro d. rewrite filter_In, h, spans_iff, andb_true_iff, negb_true_iff, mem_false.
-  rewrite (used_same T (increasing (d :: [a; b; c])) [a; b; c; d]).
-  - assert (e : NoDup [a; b; c; d] <-> ~ In d [a; b; c]).
-    { pose proof (Permutation_cons_append [a; b; c] d) as p. split.
-      - intro k. apply (Permutation_NoDup (Permutation_sym p)) in k. now inversion k.
-      - intro k. apply (Permutation_NoDup p). now constructor. }
-    pose proof (in_all_vertices d). tauto.
-  - intro x. rewrite in_increasing. simpl. tauto.
-Qed.
 Lemma degree_cases f : In f (faces 3) ->
-  if covers B f then degree f = 1 else degree f = 0 \/ degree f = 2.
+  if covers B f then degree T f = 1 else degree T f = 0 \/ degree T f = 2.
 Proof.
   intro i. pose proof (face_3 f i) as (a & b & c & -> & n).
   destruct (covers B [a; b; c]) eqn:e.
-  - apply face_covers, (boundary B T tri) in e as [d h]; auto. now apply (degree_apexes _ _ _ [d]).
+  - apply face_covers, (boundary B T tri) in e as [d h]; auto. now apply (degree_apexes T T_nodup _ _ _ [d]).
   - destruct (at_most_two B T tri a b c n) as (ds & h & le).
-    rewrite (degree_apexes a b c ds i h). destruct ds as [| d [| d' [|]]]; simpl in *; try lia.
+    rewrite (degree_apexes T T_nodup a b c ds i h). destruct ds as [| d [| d' [|]]]; simpl in *; try lia.
     exfalso. apply not_true_iff_false in e. apply e, face_covers, (boundary B T tri); auto.
     now exists d.
 Qed.
-Lemma used_degree f : used T f = true <-> degree f <> 0.
+Lemma degree_used f : In f (faces 3) -> degree T f + Nat.b2n (covers B f) = 2 * Nat.b2n (used T f).
 Proof.
-  unfold degree. split.
-  - intros h e. apply (used_tetrahedron T T_nodup) in h as (q & i & s & u).
-    rewrite count_zero in e. rewrite (e q) in u; [discriminate |]. now apply filter_In.
-  - intro h. apply count_some in h as (q & i & u). apply filter_In in i as [_ i].
-    now apply (used_subset T f q).
-Qed.
-Lemma degree_used f : In f (faces 3) -> degree f + Nat.b2n (covers B f) = 2 * Nat.b2n (used T f).
-Proof.
-  intro i. pose proof (degree_cases f i) as h. pose proof (used_degree f) as u.
+  intro i. pose proof (degree_cases f i) as h. pose proof (used_degree T T_nodup f) as u.
   destruct (covers B f), (used T f); simpl; intuition lia.
 Qed.
 
@@ -287,7 +299,7 @@ Qed.
 Definition boundary_triangles (v : vertex) : nat := count (covers B) (filter (mem v) (faces 3)).
 Lemma triangles_at_vertex v : 3 * at_vertex v 4 + boundary_triangles v = 2 * at_vertex v 3.
 Proof.
-  assert (e : total degree (filter (mem v) (faces 3)) = 3 * at_vertex v 4).
+  assert (e : total (degree T) (filter (mem v) (faces 3)) = 3 * at_vertex v 4).
   { unfold degree, at_vertex. rewrite count_filter, (count_total _ (faces 4)), <- total_scale.
     rewrite (total_ext _ (fun f => total (fun q => Nat.b2n (subset f q && used T q)) (faces 4)))
       by (intros f _; now rewrite count_filter, count_total).
@@ -317,7 +329,7 @@ Proof.
   assert (e : forall v, In v (increasing (corners t)) <-> In v (corners t)) by (intro; apply in_increasing).
   apply (used_subset T f (increasing (corners t))).
   - rewrite (subset_same f f _ (corners t)); [exact h | tauto | exact e].
-  - apply used_degree. pose proof (degree_cases _ j) as d.
+  - apply (used_degree T T_nodup). pose proof (degree_cases _ j) as d.
     replace (covers B (increasing (corners t))) with true in d; [lia |].
     symmetry. apply existsb_exists. exists t. split; auto. apply subset_iff. intros v. apply e.
 Qed.
