@@ -317,12 +317,12 @@ Proof.
   - (* some o is an end of the link's path *)
     assert (end_ : exists o y, ~ In o free /\ spans T a b o y).
     { pose proof closed as n. apply andb_true_iff in n as [n _]. rewrite forallb_forall in n.
-      apply existsb_exists in on as (t & it & s). specialize (n t it). apply distinct_iff in n.
+      apply covers_iff in on as (t & it & s). specialize (n t it). apply distinct_iff in n.
       destruct (existsb (fun o => negb (mem o [a; b]) && mem o (corners t)) all_vertices) eqn:ex.
       - apply existsb_exists in ex as (o & _ & k').
         rewrite andb_true_iff, negb_true_iff, mem_false, mem_iff in k'. destruct k' as [no io].
         assert (cov : covers B [o; a; b] = true).
-        { apply existsb_exists. exists t. split; auto. rewrite subset_iff in *.
+        { apply covers_iff. exists t. split; auto. rewrite subset_iff in *.
           intros v [<- | j]; auto. }
         assert (m : NoDup [a; b; o]).
         { clear - ne no. repeat constructor; simpl in *; intuition congruence. }

@@ -9,6 +9,33 @@ From Certify Require Import Barycentric Integral.
 From Certify Require Export Triangulation.
 Import ListNotations.
 
+(** ** Tests of lists that stop early
+
+    The library's [existsb] and [forallb] go through the whole list when they compute. *)
+
+Fixpoint any {A} (f : A -> bool) (l : list A) : bool :=
+  match l with [] => false | x :: l' => if f x then true else any f l' end.
+Fixpoint every {A} (f : A -> bool) (l : list A) : bool :=
+  match l with [] => true | x :: l' => if f x then every f l' else false end.
+Lemma any_exists A (f : A -> bool) l : any f l = true <-> exists x, In x l /\ f x = true.
+Proof.
+  rewrite <- existsb_exists. induction l as [| x l IH]; simpl; [tauto |].
+  destruct (f x); simpl; tauto.
+Qed.
+Lemma every_forall A (f : A -> bool) l : every f l = true <-> forall x, In x l -> f x = true.
+Proof.
+  rewrite <- forallb_forall. induction l as [| x l IH]; simpl; [tauto |].
+  destruct (f x); simpl; [exact IH | tauto].
+Qed.
+
+Local Open Scope lazy_bool_scope.
+
+(** [a &&& b] and [a ||| b] do not look at b where a decides. *)
+Lemma lazy_and (a b : bool) : (a &&& b) = true <-> a = true /\ b = true.
+Proof. destruct a, b; intuition discriminate. Qed.
+Lemma lazy_or (a b : bool) : (a ||| b) = true <-> a = true \/ b = true.
+Proof. destruct a, b; intuition discriminate. Qed.
+
 (** ** Counting *)
 
 Fixpoint count {A} (f : A -> bool) (l : list A) : nat :=
@@ -72,10 +99,10 @@ Qed.
 
 (** ** Faces *)
 
-Definition subset (f g : list vertex) : bool := forallb (fun v => mem v g) f.
+Definition subset (f g : list vertex) : bool := every (fun v => mem v g) f.
 Lemma subset_iff f g : subset f g = true <-> incl f g.
 Proof.
-  unfold subset. rewrite forallb_forall. split; intros h v i; apply mem_iff; auto.
+  unfold subset. rewrite every_forall. split; intros h v i; apply mem_iff; auto.
 Qed.
 Lemma subset_same f f' g g' : (forall v, In v f <-> In v f') -> (forall v, In v g <-> In v g') ->
   subset f g = subset f' g'.
@@ -158,21 +185,28 @@ Qed.
     [used T f]: f is a face of one of the tetrahedra; [covers D f]: of one of the triangles. *)
 
 Definition used (T : list tetrahedron) (f : list vertex) : bool :=
-  existsb (fun t => subset f (vertices t)) T.
+  any (fun t => subset f (vertices t)) T.
 Definition covers (D : list triangle) (f : list vertex) : bool :=
-  existsb (fun t => subset f (corners t)) D.
+  any (fun t => subset f (corners t)) D.
 
-Lemma existsb_same A (f g : A -> bool) l : (forall x, f x = g x) -> existsb f l = existsb g l.
-Proof. intro h. induction l; simpl; congruence. Qed.
+Lemma used_iff T f : used T f = true <-> exists t, In t T /\ subset f (vertices t) = true.
+Proof. apply any_exists. Qed.
+Lemma covers_iff D f : covers D f = true <-> exists t, In t D /\ subset f (corners t) = true.
+Proof. apply any_exists. Qed.
+Lemma covers_cons t D f : covers (t :: D) f = subset f (corners t) || covers D f.
+Proof. reflexivity. Qed.
+
+Lemma any_same A (f g : A -> bool) l : (forall x, f x = g x) -> any f l = any g l.
+Proof. intro h. induction l as [| x l IH]; simpl; auto. now rewrite h, IH. Qed.
 Lemma used_same T f g : (forall v, In v f <-> In v g) -> used T f = used T g.
-Proof. intro h. apply existsb_same. intro t. apply subset_same; tauto. Qed.
+Proof. intro h. apply any_same. intro t. apply subset_same; tauto. Qed.
 Lemma covers_same D f g : (forall v, In v f <-> In v g) -> covers D f = covers D g.
-Proof. intro h. apply existsb_same. intro t. apply subset_same; tauto. Qed.
+Proof. intro h. apply any_same. intro t. apply subset_same; tauto. Qed.
 Lemma subset_trans f g h : subset f g = true -> subset g h = true -> subset f h = true.
 Proof. rewrite !subset_iff. apply incl_tran. Qed.
 Lemma used_subset T f g : subset f g = true -> used T g = true -> used T f = true.
 Proof.
-  unfold used. rewrite !existsb_exists. intros h (t & i & k). exists t. eauto using subset_trans.
+  rewrite !used_iff. intros h (t & i & k). exists t. eauto using subset_trans.
 Qed.
 
 Lemma length_vertices t : length (vertices t) = 4.
@@ -182,7 +216,7 @@ Proof. now destruct t as [[a b] c]. Qed.
 
 Lemma face_covers D a b c : NoDup [a; b; c] -> (face D a b c <-> covers D [a; b; c] = true).
 Proof.
-  intro n. unfold face, covers. rewrite existsb_exists.
+  intro n. unfold face. rewrite covers_iff.
   split; intros (t & i & h); exists t; split; auto; revert h; apply permutation_iff; auto;
     now rewrite length_corners.
 Qed.
@@ -194,7 +228,7 @@ Hypothesis T_nodup : forall t, In t T -> NoDup (vertices t).
 Lemma spans_used a b c d :
   spans T a b c d <-> NoDup [a; b; c; d] /\ used T [a; b; c; d] = true.
 Proof.
-  unfold spans, used. rewrite existsb_exists. split.
+  unfold spans. rewrite used_iff. split.
   - intros (t & i & h). split.
     + now apply (Permutation_NoDup (Permutation_sym h)), T_nodup.
     + exists t. split; auto. apply subset_iff. intro v. now apply Permutation_in.
@@ -211,10 +245,10 @@ Qed.
 Lemma used_tetrahedron f : used T f = true ->
   exists q, In q (faces 4) /\ subset f q = true /\ used T q = true.
 Proof.
-  unfold used. rewrite existsb_exists. intros (t & i & h). pose proof (T_nodup t i) as n.
+  rewrite used_iff. intros (t & i & h). pose proof (T_nodup t i) as n.
   exists (increasing (vertices t)). split; [| split].
   - rewrite <- (length_vertices t). now apply increasing_face.
   - rewrite subset_iff in *. intros v j. apply in_increasing. auto.
-  - apply existsb_exists. exists t. split; auto. apply subset_iff. intros v. now rewrite in_increasing.
+  - apply used_iff. exists t. split; auto. apply subset_iff. intros v. now rewrite in_increasing.
 Qed.
 End Spans.

@@ -52,20 +52,20 @@ Proof.
   intro h. assert (e : forall k, count (covers ((a, b, c) :: D)) (faces (S k)) =
     count (covers D) (faces (S k)) + count (fun f => subset f [a; b; c] && subset n f) (faces (S k))).
   { intro k. rewrite !count_total, <- total_add. apply total_ext. intros f i. specialize (h k f i).
-    cbn [covers existsb corners]. fold (covers D f).
+    rewrite covers_cons. cbn [corners].
     destruct (subset f [a; b; c]); [rewrite h by auto; destruct (subset n f) | simpl]; simpl; lia. }
   unfold euler. rewrite !e. lia.
 Qed.
 
 Lemma face_edge D a b c : face D a b c -> covers D [a; b] = true.
 Proof.
-  intros (t & i & h). apply existsb_exists. exists t. split; auto. apply subset_iff.
+  intros (t & i & h). apply covers_iff. exists t. split; auto. apply subset_iff.
   intros v j. apply (Permutation_in v h). simpl in *. tauto.
 Qed.
 Lemma rim_covers D a b f : rim D a b -> subset f [a; b] = true -> covers D f = true.
 Proof.
-  intros (c & h & _) k. apply face_edge in h. unfold covers in *. apply existsb_exists in h as (t & i & h).
-  apply existsb_exists. exists t. eauto using subset_trans.
+  intros (c & h & _) k. apply face_edge in h. apply covers_iff in h as (t & i & h).
+  apply covers_iff. exists t. eauto using subset_trans.
 Qed.
 (** The six orders of the corners of a triangle. *)
 Lemma face_orders D x y z : In (x, y, z) D ->
@@ -83,13 +83,13 @@ Proof.
 Qed.
 Lemma no_point D c f : ~ point D c -> In c f -> covers D f = false.
 Proof.
-  intros h i. apply not_true_iff_false. intro k. apply existsb_exists in k as ([[x y] z] & j & k).
+  intros h i. apply not_true_iff_false. intro k. apply covers_iff in k as ([[x y] z] & j & k).
   rewrite subset_iff in k. apply k in i. apply h. destruct (face_orders D x y z j) as (o1 & _ & o2 & _ & o3 & _).
   destruct i as [<- | [<- | [<- | []]]]; eexists; eexists; eassumption.
 Qed.
 Lemma no_edge D a c f : a <> c -> ~ edge D a c -> In a f -> In c f -> covers D f = false.
 Proof.
-  intros ne h i i'. apply not_true_iff_false. intro k. apply existsb_exists in k as ([[x y] z] & j & k).
+  intros ne h i i'. apply not_true_iff_false. intro k. apply covers_iff in k as ([[x y] z] & j & k).
   rewrite subset_iff in k. apply k in i, i'. apply h.
   destruct (face_orders D x y z j) as (o1 & o2 & o3 & o4 & o5 & o6).
   destruct i as [<- | [<- | [<- | []]]], i' as [<- | [<- | [<- | []]]]; try congruence; eexists; eassumption.
@@ -234,7 +234,7 @@ Lemma spans_iff a b c d : spans T a b c d <-> NoDup [a; b; c; d] /\ used T [a; b
 Proof. apply spans_used, T_nodup. Qed.
 Lemma facet_not_used f : In f facets -> used T (vertices f) = false.
 Proof.
-  intro i. apply not_true_iff_false. intro h. apply existsb_exists in h as (t & j & h).
+  intro i. apply not_true_iff_false. intro h. apply used_iff in h as (t & j & h).
   apply (proper B T tri) in j as [n k]. apply (k f i), Permutation_sym, permutation_subset.
   - now apply facet_nodup.
   - now rewrite !length_vertices.
@@ -246,19 +246,19 @@ Lemma link_covers D v f : (forall a b c, face D a b c <-> spans T v a b c) ->
   covers D f = negb (mem v f) && used T (v :: f).
 Proof.
   intro h. apply eq_true_iff_eq. rewrite andb_true_iff, negb_true_iff, mem_false. split.
-  - intro k. apply existsb_exists in k as ([[a b] c] & i & k). cbn [corners] in k.
+  - intro k. apply covers_iff in k as ([[a b] c] & i & k). cbn [corners] in k.
     assert (s : spans T v a b c) by (apply h; exists (a, b, c); auto).
     apply spans_iff in s as [n s]. rewrite subset_iff in k. split.
     + intro j. apply k in j. now inversion n.
     + apply (used_subset T _ _) with (2 := s). apply subset_iff. intros x [<- | j]; [now left |].
       right. auto.
-  - intros [n k]. apply existsb_exists in k as (t & i & k). rewrite subset_iff in k.
+  - intros [n k]. apply used_iff in k as (t & i & k). rewrite subset_iff in k.
     destruct (in_split v (vertices t)) as (l & m & e); [apply k; now left |].
     pose proof (Permutation_middle l m v) as p. rewrite <- e in p.
     pose proof (Permutation_length p) as len. rewrite length_vertices in len.
     destruct (l ++ m) as [| a [| b [| c [|]]]]; try discriminate.
     assert (s : face D a b c) by (apply h; exists t; auto).
-    destruct s as (u & j & q). apply existsb_exists. exists u. split; auto. apply subset_iff.
+    destruct s as (u & j & q). apply covers_iff. exists u. split; auto. apply subset_iff.
     intros x ix. apply (Permutation_in x q).
     assert (o : In x (v :: [a; b; c])).
     { apply (Permutation_in x (Permutation_sym p)), k. now right. }
@@ -321,7 +321,7 @@ Hypothesis closed : closed_surface = true.
 
 Lemma boundary_used f : covers B f = true -> used T f = true.
 Proof.
-  intro h. apply existsb_exists in h as (t & i & h).
+  intro h. apply covers_iff in h as (t & i & h).
   pose proof closed as n. apply andb_true_iff in n as [n _].
   rewrite forallb_forall in n. specialize (n t i). apply distinct_iff in n.
   assert (j : In (increasing (corners t)) (faces 3)).
@@ -331,7 +331,7 @@ Proof.
   - rewrite (subset_same f f _ (corners t)); [exact h | tauto | exact e].
   - apply (used_degree T T_nodup). pose proof (degree_cases _ j) as d.
     replace (covers B (increasing (corners t))) with true in d; [lia |].
-    symmetry. apply existsb_exists. exists t. split; auto. apply subset_iff. intros v. apply e.
+    symmetry. apply covers_iff. exists t. split; auto. apply subset_iff. intros v. apply e.
 Qed.
 
 (** The edges off the boundary. *)

@@ -1,31 +1,32 @@
 (** * Recognizing triangulations, and telling them apart
 
     Tests that compute, with proofs that they are right: that a list of tetrahedra triangulates the
-    hexahedron ([triangulates_sound]), and that two are not equivalent ([differ_sound]).
+    hexahedron ([triangulates_sound]), and that two are not equivalent ([all_differ_sound]).
 
     Paths, cycles and shellings are searched for; how need not concern whoever believes the result,
     since what is found is tested. *)
 
-From Coq Require Import List Bool Permutation PeanoNat Lia.
+From Coq Require Import List Bool Permutation PeanoNat PArith Lia.
 From Certify Require Import Barycentric Integral Faces Links Symmetry.
 Import ListNotations.
+Local Open Scope lazy_bool_scope.
 
 (** ** Discs *)
 
 Definition rim_test (D : list triangle) (a b : vertex) : bool :=
-  count (fun c => distinct [a; b; c] && covers D [a; b; c]) all_vertices =? 1.
+  count (fun c => covers D [a; b; c] &&& distinct [a; b; c]) all_vertices =? 1.
 Definition glues_one (D : list triangle) (t : triangle) : bool :=
-  let '(a, b, c) := t in rim_test D a b && negb (covers D [c]).
+  let '(a, b, c) := t in rim_test D a b &&& negb (covers D [c]).
 Definition glues_two (D : list triangle) (t : triangle) : bool :=
   let '(a, b, c) := t in
-  rim_test D a b && rim_test D b c && negb (same_vertex a c) && negb (covers D [a; c]).
+  rim_test D a b &&& (rim_test D b c &&& (negb (same_vertex a c) &&& negb (covers D [a; c]))).
 
 (** The last triangle of the list is the first of the shelling. *)
 Fixpoint shelling (D : list triangle) : bool :=
   match D with
   | [] => false
   | [t] => distinct (corners t)
-  | t :: D' => (glues_one D' t || glues_two D' t) && shelling D'
+  | t :: D' => (glues_one D' t ||| glues_two D' t) &&& shelling D'
   end.
 
 Lemma count_one A (f : A -> bool) l : count f l = 1 ->
@@ -38,14 +39,14 @@ Proof.
     intros z [<- | i] k; [congruence | auto].
 Qed.
 Lemma face_nodup_covers D a b c : disc D ->
-  (face D a b c <-> distinct [a; b; c] && covers D [a; b; c] = true).
+  (face D a b c <-> (covers D [a; b; c] &&& distinct [a; b; c]) = true).
 Proof.
-  intro d. rewrite andb_true_iff, distinct_iff. split.
+  intro d. rewrite lazy_and, distinct_iff. split.
   - intro h. assert (n : NoDup [a; b; c]).
     { destruct h as (t & i & p). apply (Permutation_NoDup (Permutation_sym p)).
       now apply (disc_nodup D d). }
     split; auto. now apply face_covers.
-  - intros [n h]. now apply face_covers.
+  - intros [h n]. now apply face_covers.
 Qed.
 Lemma rim_test_sound D a b : disc D -> rim_test D a b = true -> rim D a b.
 Proof.
@@ -57,15 +58,15 @@ Lemma shelling_sound D : shelling D = true -> disc D.
 Proof.
   induction D as [| [[a b] c] D IH]; [discriminate |]. destruct D as [| t D].
   - intro h. constructor. now apply distinct_iff.
-  - intro h. cbn [shelling] in h. apply andb_true_iff in h as [h d]. apply IH in d.
+  - intro h. cbn [shelling] in h. apply lazy_and in h as [h d]. apply IH in d.
     clear IH. revert h d. generalize (t :: D). clear t D. intros D h d.
-    apply orb_true_iff in h as [h | h]; unfold glues_one, glues_two in h.
-    + apply andb_true_iff in h as [r n]. apply negb_true_iff in n.
+    apply lazy_or in h as [h | h]; unfold glues_one, glues_two in h.
+    + apply lazy_and in h as [r n]. apply negb_true_iff in n.
       apply glue_one_edge; auto using rim_test_sound. intros (x & y & k).
       apply face_edge in k. apply not_true_iff_false in n. apply n.
-      apply existsb_exists in k as (u & i & s). apply existsb_exists. exists u. split; auto.
+      apply covers_iff in k as (u & i & s). apply covers_iff. exists u. split; auto.
       apply subset_trans with (2 := s). apply subset_iff. intros v [<- | []]. now left.
-    + rewrite !andb_true_iff, !negb_true_iff in h. destruct h as [[[r r'] ne] n].
+    + rewrite !lazy_and, !negb_true_iff in h. destruct h as (r & r' & ne & n).
       apply glue_two_edges; auto using rim_test_sound.
       * intros <-. apply not_true_iff_false in ne. now apply ne, same_vertex_iff.
       * intros (x & k). apply face_edge in k. congruence.
@@ -75,7 +76,7 @@ Qed.
 Definition turns (t : triangle) : list triangle :=
   let '(a, b, c) := t in [(a, b, c); (b, c, a); (c, a, b)].
 Definition glues (D : list triangle) (t : triangle) : bool :=
-  match D with [] => true | _ => glues_one D t || glues_two D t end.
+  match D with [] => true | _ => glues_one D t ||| glues_two D t end.
 Fixpoint shell (fuel : nat) (D : list triangle) (left : list (list vertex)) : list triangle :=
   match fuel with
   | 0 => D
@@ -90,24 +91,24 @@ Fixpoint shell (fuel : nat) (D : list triangle) (left : list (list vertex)) : li
 Section Test.
 Variable T : list tetrahedron.
 
-Definition spans_test (a b c d : vertex) : bool := distinct [a; b; c; d] && used T [a; b; c; d].
+Definition spans_test (a b c d : vertex) : bool := used T [a; b; c; d] &&& distinct [a; b; c; d].
 
 Definition vertex_test (v : vertex) : bool :=
-  let in_link f := negb (mem v f) && used T (v :: f) in
+  let in_link f := negb (mem v f) &&& used T (v :: f) in
   let link := filter in_link (faces 3) in
   let D := shell (length link) [] link in
-  shelling D && forallb (fun f => eqb (covers D f) (in_link f)) (faces 3).
+  shelling D &&& every (fun f => eqb (covers D f) (in_link f)) (faces 3).
 
 (** ** Paths and cycles *)
 
 Fixpoint consecutive_test (l : list vertex) (x y : vertex) : bool :=
   match l with
-  | u :: (v :: _) as l' => (same_vertex u x && same_vertex v y) || consecutive_test l' x y
+  | u :: (v :: _) as l' => (same_vertex u x &&& same_vertex v y) ||| consecutive_test l' x y
   | _ => false
   end.
 Definition graph_test (joined : vertex -> vertex -> bool) (l : list vertex) : bool :=
-  forallb (fun x => forallb (fun y =>
-    eqb (joined x y) (consecutive_test l x y || consecutive_test l y x)) all_vertices) all_vertices.
+  every (fun x => every (fun y =>
+    eqb (joined x y) (consecutive_test l x y ||| consecutive_test l y x)) all_vertices) all_vertices.
 
 (** From a vertex go on to neighbours that were not seen, as long as there are any. *)
 Fixpoint trace (fuel : nat) (joined : vertex -> vertex -> bool) (seen : list vertex) (x : vertex)
@@ -115,7 +116,7 @@ Fixpoint trace (fuel : nat) (joined : vertex -> vertex -> bool) (seen : list ver
   match fuel with
   | 0 => [x]
   | S fuel' =>
-      match find (fun y => joined x y && negb (mem y (x :: seen))) all_vertices with
+      match find (fun y => joined x y &&& negb (mem y (x :: seen))) all_vertices with
       | Some y => x :: trace fuel' joined (x :: seen) y
       | None => [x]
       end
@@ -124,13 +125,13 @@ Definition edge_test (a b : vertex) : bool :=
   let joined := spans_test a b in
   let valence x := count (joined x) all_vertices in
   match find (fun x => valence x =? 1) all_vertices with
-  | Some x => let l := trace 8 joined [] x in distinct l && graph_test joined l
+  | Some x => let l := trace 8 joined [] x in distinct l &&& graph_test joined l
   | None =>
       match find (fun x => negb (valence x =? 0)) all_vertices with
       | None => graph_test joined []
       | Some x =>
           match trace 8 joined [] x with
-          | v :: l => distinct (v :: l) && (2 <=? length l) && graph_test joined (v :: l ++ [v])
+          | v :: l => distinct (v :: l) &&& ((2 <=? length l) &&& graph_test joined (v :: l ++ [v]))
           | [] => false
           end
       end
@@ -141,7 +142,7 @@ Proof.
   induction l as [| u [| v l] IH].
   - split; [discriminate |]. intros ([| ? ?] & ? & e); discriminate.
   - split; [discriminate |]. intros ([| ? [| ? ?]] & ? & e); discriminate.
-  - cbn [consecutive_test] in *. rewrite orb_true_iff, andb_true_iff, !same_vertex_iff, IH. split.
+  - cbn [consecutive_test] in *. rewrite lazy_or, lazy_and, !same_vertex_iff, IH. split.
     + intros [[<- <-] | h]; [now exists [], l | now apply consecutive_later].
     + intros ([| w before] & after & e).
       * injection e as <- <- <-. now left.
@@ -150,48 +151,48 @@ Qed.
 Lemma graph_sound joined joined' l : (forall x y, joined x y = true <-> joined' x y) ->
   graph_test joined l = true -> forall x y, joined' x y <-> neighbours l x y.
 Proof.
-  intros e h x y. unfold graph_test in h. rewrite forallb_forall in h.
-  specialize (h x (in_all_vertices x)). rewrite forallb_forall in h.
+  intros e h x y. unfold graph_test in h. rewrite every_forall in h.
+  specialize (h x (in_all_vertices x)). rewrite every_forall in h.
   specialize (h y (in_all_vertices y)). apply eqb_prop in h.
-  unfold neighbours. rewrite <- e, h, orb_true_iff, !consecutive_sound. tauto.
+  unfold neighbours. rewrite <- e, h, lazy_or, !consecutive_sound. tauto.
 Qed.
 
 (** ** The whole *)
 
 Definition proper_test : bool :=
-  forallb (fun t => distinct (vertices t) &&
-    forallb (fun f => negb (subset (vertices t) (vertices f))) facets) T.
-Definition triangles_test : bool := forallb (fun f => degree T f <=? 2) (faces 3).
+  every (fun t => distinct (vertices t) &&&
+    every (fun f => negb (subset (vertices t) (vertices f))) facets) T.
+Definition triangles_test : bool := every (fun f => degree T f <=? 2) (faces 3).
 Definition border : list (list vertex) := filter (fun f => degree T f =? 1) (faces 3).
 Definition boundary_test (border : list (list vertex)) (B : list triangle) : bool :=
-  forallb (fun t => distinct (corners t)) B &&
-  forallb (fun t => existsb (fun f => subset f (corners t)) border) B &&
-  forallb (covers B) border.
+  every (covers B) border &&&
+  (every (fun t => any (fun f => subset f (corners t)) border) B &&&
+  every (fun t => distinct (corners t)) B).
 Definition triangulates : bool :=
-  proper_test && triangles_test &&
-  forallb (fun e => match e with [a; b] => edge_test a b | _ => false end) (faces 2) &&
-  forallb vertex_test all_vertices &&
-  let border := border in existsb (boundary_test border) boundaries.
+  proper_test &&& (triangles_test &&&
+  (every (fun e => match e with [a; b] => edge_test a b | _ => false end) (faces 2) &&&
+  (every vertex_test all_vertices &&&
+  let border := border in any (boundary_test border) boundaries))).
 
 Hypothesis ok : proper_test = true.
 Lemma tested_nodup t : In t T -> NoDup (vertices t).
 Proof.
-  intro i. pose proof ok as h. unfold proper_test in h. rewrite forallb_forall in h.
-  apply h, andb_true_iff in i as [i _]. now apply distinct_iff.
+  intro i. pose proof ok as h. unfold proper_test in h. rewrite every_forall in h.
+  apply h, lazy_and in i as [i _]. now apply distinct_iff.
 Qed.
 Lemma spans_tested a b c d : spans_test a b c d = true <-> spans T a b c d.
 Proof.
-  unfold spans_test. rewrite (spans_used T tested_nodup), andb_true_iff, distinct_iff. tauto.
+  unfold spans_test. rewrite (spans_used T tested_nodup), lazy_and, distinct_iff. tauto.
 Qed.
 Lemma edge_sound a b : edge_test a b = true -> path (spans T a b) \/ cycle (spans T a b).
 Proof.
   assert (s : forall x y, spans_test a b x y = true <-> spans T a b x y) by apply spans_tested.
   unfold edge_test. cbv zeta. destruct (find _ all_vertices) as [x |].
-  - intro h. apply andb_true_iff in h as [n h]. left. exists (trace 8 (spans_test a b) [] x).
+  - intro h. apply lazy_and in h as [n h]. left. exists (trace 8 (spans_test a b) [] x).
     split; [now apply distinct_iff | now apply (graph_sound (spans_test a b))].
   - destruct (find _ all_vertices) as [x |].
     + destruct (trace _ _ _ x) as [| v l]; [discriminate |]. intro h.
-      apply andb_true_iff in h as [h g]. apply andb_true_iff in h as [n le]. right. exists v, l.
+      rewrite !lazy_and in h. destruct h as (n & le & g). right. exists v, l.
       split; [now apply distinct_iff |]. split; [now apply Nat.leb_le |].
       now apply (graph_sound (spans_test a b)).
     + intro h. left. exists []. split; [constructor | now apply (graph_sound (spans_test a b))].
@@ -208,17 +209,18 @@ Lemma vertex_sound v : vertex_test v = true ->
   exists D, disc D /\ forall a b c, face D a b c <-> spans T v a b c.
 Proof.
   unfold vertex_test. cbv zeta. set (D := shell _ _ _). intro h.
-  apply andb_true_iff in h as [d h]. apply shelling_sound in d. exists D. split; auto.
-  intros a b c. rewrite (face_nodup_covers D a b c d), andb_true_iff, distinct_iff.
+  apply lazy_and in h as [d h]. apply shelling_sound in d. exists D. split; auto.
+  intros a b c. rewrite (face_nodup_covers D a b c d), lazy_and, distinct_iff.
   rewrite (spans_used T tested_nodup).
   assert (k : NoDup [a; b; c] -> (covers D [a; b; c] = negb (mem v [a; b; c]) && used T [v; a; b; c])).
-  { intro n. rewrite forallb_forall in h. specialize (h _ (increasing_face _ n)).
+  { intro n. rewrite every_forall in h. specialize (h _ (increasing_face _ n)).
     assert (e : forall w, In w (increasing [a; b; c]) <-> In w [a; b; c]) by (intro; apply in_increasing).
-    apply eqb_prop in h. rewrite (covers_same D _ [a; b; c]) in h by exact e. rewrite h. f_equal.
+    apply eqb_prop in h. change (covers D (increasing [a; b; c]) = negb (mem v (increasing [a; b; c])) && used T (v :: increasing [a; b; c])) in h.
+    rewrite (covers_same D _ [a; b; c]) in h by exact e. rewrite h. f_equal.
     - f_equal. apply eq_true_iff_eq. rewrite !mem_iff. apply e.
     - apply used_same. intro w. specialize (e w). cbn [In] in *. tauto. }
   rewrite (NoDup_cons_iff v [a; b; c]). split.
-  - intros [n h']. rewrite k, andb_true_iff, negb_true_iff, mem_false in h' by exact n. tauto.
+  - intros [h' n]. rewrite k, andb_true_iff, negb_true_iff, mem_false in h' by exact n. tauto.
   - intros [[o n] u]. split; auto. rewrite k by exact n. rewrite u, andb_true_r.
     now apply negb_true_iff, mem_false.
 Qed.
@@ -244,7 +246,7 @@ Qed.
 Lemma boundary_sound B : boundary_test border B = true ->
   forall a b c, NoDup [a; b; c] -> (in_boundary T a b c <-> face B a b c).
 Proof.
-  unfold boundary_test. rewrite !andb_true_iff, !forallb_forall. intros [[nB h1] h2] a b c n.
+  unfold boundary_test. rewrite !lazy_and, !every_forall. intros (h2 & h1 & nB) a b c n.
   destruct (apexes_tested a b c n) as (ds & ap & len). pose proof (increasing_face _ n) as i.
   assert (e : in_boundary T a b c <-> In (increasing [a; b; c]) border).
   { unfold border. rewrite filter_In, Nat.eqb_eq, <- len. split.
@@ -252,8 +254,8 @@ Proof.
     - intros [_ h]. destruct ds as [| d [|]]; try discriminate. now exists d. }
   assert (same : forall w, In w (increasing [a; b; c]) <-> In w [a; b; c]) by (intro; apply in_increasing).
   rewrite e, face_covers, <- (covers_same B _ _ same) by exact n. split; [apply h2 |].
-  intro h. apply existsb_exists in h as (t & j & s). apply h1 in j as k.
-  apply existsb_exists in k as (f & jf & s'). replace (increasing [a; b; c]) with f; auto.
+  intro h. apply covers_iff in h as (t & j & s). apply h1 in j as k.
+  apply any_exists in k as (f & jf & s'). replace (increasing [a; b; c]) with f; auto.
   assert (jf' : In f (faces 3)) by now apply filter_In in jf.
   pose proof (face_nodup 3 f ltac:(lia) jf') as [nf lf].
   pose proof (face_nodup 3 _ ltac:(lia) i) as [ni li].
@@ -271,36 +273,84 @@ End Test.
 
 Theorem triangulates_sound T : triangulates T = true -> triangulation T.
 Proof.
-  unfold triangulates. cbv zeta. rewrite !andb_true_iff. intros [[[[ok tr] ed] ve] b].
-  apply existsb_exists in b as (B & i & b). exists B. split; auto. constructor.
+  unfold triangulates. cbv zeta. rewrite !lazy_and. intros (ok & tr & ed & ve & b).
+  apply any_exists in b as (B & i & b). exists B. split; auto. constructor.
   - intros t j. split; [now apply (tested_nodup T ok) |]. intros f jf p.
-    unfold proper_test in ok. rewrite forallb_forall in ok. apply ok, andb_true_iff in j as [_ j].
-    rewrite forallb_forall in j. apply j, negb_true_iff, not_true_iff_false in jf. apply jf.
+    unfold proper_test in ok. rewrite every_forall in ok. apply ok, lazy_and in j as [_ j].
+    rewrite every_forall in j. apply j, negb_true_iff, not_true_iff_false in jf. apply jf.
     apply subset_iff. intro v. now apply Permutation_in.
   - intros a b' c n. destruct (apexes_tested T ok a b' c n) as (ds & ap & len). exists ds.
     split; auto. rewrite len. apply Nat.leb_le. unfold triangles_test in tr.
-    rewrite forallb_forall in tr. now apply tr, increasing_face.
+    rewrite every_forall in tr. now apply tr, increasing_face.
   - now apply boundary_sound.
-  - intros a b' ne. rewrite forallb_forall in ed.
+  - intros a b' ne. rewrite every_forall in ed.
     assert (n : NoDup [a; b']) by (repeat constructor; simpl; intuition).
     pose proof (increasing_face _ n) as k. pose proof (increasing_permutation _ n) as p.
     apply ed in k. revert k p. destruct (increasing [a; b']) as [| x [| y [|]]]; try discriminate.
     intros k p. apply (edge_sound T ok) in k. apply Permutation_length_2 in p as [[<- <-] | [<- <-]]; auto.
     now apply edge_swap.
-  - intro v. apply (vertex_sound T ok). rewrite forallb_forall in ve. apply ve, in_all_vertices.
+  - intro v. apply (vertex_sound T ok). rewrite every_forall in ve. apply ve, in_all_vertices.
 Qed.
 
-(** ** Not equivalent: under each symmetry some tetrahedron is not mapped to one *)
+(** ** Telling triangulations apart
 
-Definition differ (T U : list tetrahedron) : bool :=
-  forallb (fun l => existsb (fun t => negb (used U (map (at_list l) (vertices t)))) T) symmetries.
+    A set of tetrahedra is coded as one number, with a bit for each quadruple. The orbit of T has
+    the codes of its images under the 48 symmetries. *)
 
-Lemma differ_sound T U : differ T U = true -> ~ equivalent T U.
+Definition bits (l : list bool) : positive :=
+  fold_right (fun (b : bool) p => if b then xI p else xO p) xH l.
+Definition mask (f : list vertex) : positive := bits (map (fun v => mem v f) all_vertices).
+Definition masks : list positive := Eval vm_compute in map mask (faces 4).
+Definition code (T : list tetrahedron) : positive :=
+  let those := map (fun t => mask (vertices t)) T in
+  bits (map (fun m => any (Pos.eqb m) those) masks).
+Definition orbit (T : list tetrahedron) : list positive :=
+  map (fun l => code (map (relabel (at_list l)) T)) symmetries.
+
+Lemma code_same T U : (forall a b c d, spans T a b c d <-> spans U a b c d) -> code T = code U.
 Proof.
-  intros h (s & sym & e). unfold differ in h. rewrite forallb_forall in h.
-  specialize (h _ (symmetry_listed s sym)). apply existsb_exists in h as (t & i & n).
-  rewrite (map_ext _ s (at_list_map s)) in n. apply negb_true_iff, not_true_iff_false in n. apply n.
-  destruct t as [[[a b] c] d]. assert (k : spans T a b c d) by now exists (a, b, c, d).
-  apply e in k as (u & j & p). apply existsb_exists. exists u. split; auto. apply subset_iff.
-  intro v. now apply Permutation_in.
+  assert (one : forall T U, (forall a b c d, spans T a b c d -> spans U a b c d) ->
+    incl (map (fun t => mask (vertices t)) T) (map (fun t => mask (vertices t)) U)).
+  { clear T U. intros T U h m i. apply in_map_iff in i as ([[[a b] c] d] & <- & i).
+    destruct (h a b c d) as (u & j & p); [exists (a, b, c, d); auto |].
+    apply in_map_iff. exists u. split; auto. unfold mask. f_equal. apply map_ext. intro v.
+    apply eq_true_iff_eq. rewrite !mem_iff.
+    split; apply Permutation_in; auto using Permutation_sym. }
+  intro h. unfold code. cbv zeta. f_equal. apply map_ext. intro m.
+  apply eq_true_iff_eq. rewrite !any_exists.
+  split; intros (x & i & e); exists x; split; auto; revert i; apply one; intros; now apply h.
+Qed.
+Theorem orbit_complete T U : equivalent T U -> In (code U) (orbit T).
+Proof.
+  intros (s & sym & h). unfold orbit. apply in_map_iff. exists (map s all_vertices).
+  split; [| now apply symmetry_listed]. destruct (inverse s sym) as (r & _ & undo & undo').
+  apply code_same. intros a b c d.
+  assert (e : map (relabel (at_list (map s all_vertices))) T = map (relabel s) T).
+  { apply map_ext. intros [[[x y] z] w]. unfold relabel. now rewrite !at_list_map. }
+  rewrite e, <- (undo' a), <- (undo' b), <- (undo' c), <- (undo' d), (spans_relabel s r undo).
+  apply h.
+Qed.
+
+(** In a list, the code of none is in the orbit of an earlier one. *)
+Definition all_differ (Ts : list (list tetrahedron)) : bool :=
+  all_pairs (fun x y : list positive * positive => negb (any (Pos.eqb (snd y)) (fst x)))
+    (map (fun T => (orbit T, code T)) Ts).
+Lemma all_differ_sound A (of : A -> list tetrahedron) l : all_differ (map of l) = true ->
+  forall x y, In x l -> In y l -> equivalent (of x) (of y) -> x = y.
+Proof.
+  unfold all_differ. rewrite map_map.
+  assert (no : forall x y, negb (any (Pos.eqb (code (of y))) (orbit (of x))) = true ->
+    ~ equivalent (of x) (of y)).
+  { intros x y h e. apply negb_true_iff, not_true_iff_false in h. apply h, any_exists.
+    exists (code (of y)). split; [now apply orbit_complete | apply Pos.eqb_refl]. }
+  intros h x y ix iy e.
+  destruct (all_pairs_sound A
+    (fun x y => negb (any (Pos.eqb (code (of y))) (orbit (of x)))) l) with (x := x) (y := y)
+    as [k | [k | k]]; auto.
+  - clear -h. induction l as [| x l IH]; auto. cbn [map all_pairs] in *.
+    apply andb_true_iff in h as [h k]. apply andb_true_iff. split; auto.
+    rewrite forallb_forall in *. intros y i. specialize (h (orbit (of y), code (of y))).
+    cbn [fst snd] in h. apply h, in_map_iff. now exists y.
+  - now apply no in e.
+  - apply no in k. now apply equivalent_sym in e.
 Qed.
