@@ -335,22 +335,19 @@ Qed.
 Definition all_differ (Ts : list (list tetrahedron)) : bool :=
   all_pairs (fun x y : list positive * positive => negb (any (Pos.eqb (snd y)) (fst x)))
     (map (fun T => (orbit T, code T)) Ts).
-Lemma all_differ_sound A (of : A -> list tetrahedron) l : all_differ (map of l) = true ->
-  forall x y, In x l -> In y l -> equivalent (of x) (of y) -> x = y.
+Lemma all_pairs_map A C (h : A -> C) f l :
+  all_pairs f (map h l) = all_pairs (fun x y => f (h x) (h y)) l.
 Proof.
-  unfold all_differ. rewrite map_map.
-  assert (no : forall x y, negb (any (Pos.eqb (code (of y))) (orbit (of x))) = true ->
-    ~ equivalent (of x) (of y)).
-  { intros x y h e. apply negb_true_iff, not_true_iff_false in h. apply h, any_exists.
-    exists (code (of y)). split; [now apply orbit_complete | apply Pos.eqb_refl]. }
-  intros h x y ix iy e.
-  destruct (all_pairs_sound A
-    (fun x y => negb (any (Pos.eqb (code (of y))) (orbit (of x)))) l) with (x := x) (y := y)
-    as [k | [k | k]]; auto.
-  - clear -h. induction l as [| x l IH]; auto. cbn [map all_pairs] in *.
-    apply andb_true_iff in h as [h k]. apply andb_true_iff. split; auto.
-    rewrite forallb_forall in *. intros y i. specialize (h (orbit (of y), code (of y))).
-    cbn [fst snd] in h. apply h, in_map_iff. now exists y.
-  - now apply no in e.
-  - apply no in k. now apply equivalent_sym in e.
+  induction l as [| x l IH]; simpl; auto. rewrite IH. f_equal. clear IH.
+  induction l; simpl; congruence.
+Qed.
+Lemma all_differ_sound Ts : all_differ Ts = true ->
+  forall T U, In T Ts -> In U Ts -> equivalent T U -> T = U.
+Proof.
+  unfold all_differ. rewrite all_pairs_map. cbn [fst snd]. intros h T U iT iU e.
+  assert (no : forall T U, negb (any (Pos.eqb (code U)) (orbit T)) = true -> ~ equivalent T U).
+  { clear. intros T U h e. apply negb_true_iff, not_true_iff_false in h. apply h, any_exists.
+    exists (code U). split; [now apply orbit_complete | apply Pos.eqb_refl]. }
+  destruct (all_pairs_sound _ _ _ h T U iT iU) as [k | [k | k]]; auto; apply no in k; exfalso; auto.
+  apply k, equivalent_sym, e.
 Qed.
