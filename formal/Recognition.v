@@ -341,13 +341,13 @@ Proof.
   induction l as [| x l IH]; simpl; auto. rewrite IH. f_equal. clear IH.
   induction l; simpl; congruence.
 Qed.
-Lemma all_differ_sound Ts : all_differ Ts = true ->
-  forall T U, In T Ts -> In U Ts -> equivalent T U -> T = U.
+Lemma all_differ_sound A (of : A -> list tetrahedron) l : all_differ (map of l) = true ->
+  forall x y, In x l -> In y l -> equivalent (of x) (of y) -> x = y.
 Proof.
-  unfold all_differ. rewrite all_pairs_map. cbn [fst snd]. intros h T U iT iU e.
+  unfold all_differ. rewrite !all_pairs_map. cbn [fst snd]. intros h x y ix iy e.
   assert (no : forall T U, negb (any (Pos.eqb (code U)) (orbit T)) = true -> ~ equivalent T U).
   { clear. intros T U h e. apply negb_true_iff, not_true_iff_false in h. apply h, any_exists.
     exists (code U). split; [now apply orbit_complete | apply Pos.eqb_refl]. }
-  destruct (all_pairs_sound _ _ _ h T U iT iU) as [k | [k | k]]; auto; apply no in k; exfalso; auto.
+  destruct (all_pairs_sound _ _ _ h x y ix iy) as [k | [k | k]]; auto; apply no in k; exfalso; auto.
   apply k, equivalent_sym, e.
 Qed.
