@@ -25,6 +25,20 @@ Definition quadruples : list tetrahedron :=
   flat_map (fun l => match l with [a; b; c; d] => [(a, b, c, d)] | _ => [] end)
     (choices 4 all_vertices).
 
+(** Sorting: the vertices in increasing order, and whether the sign stays. *)
+
+Definition rank (v : vertex) : nat :=
+  match v with V1 => 1 | V2 => 2 | V3 => 3 | V4 => 4 | V5 => 5 | V6 => 6 | V7 => 7 | V8 => 8 end.
+Definition exchange (v w : vertex) : bool := Nat.ltb (rank w) (rank v).
+Definition sorted (q : tetrahedron) : tetrahedron * bool :=
+  let '(a, b, c, d) := q in
+  let '(a, b, s) := if exchange a b then (b, a, false) else (a, b, true) in
+  let '(c, d, s) := if exchange c d then (d, c, negb s) else (c, d, s) in
+  let '(a, c, s) := if exchange a c then (c, a, negb s) else (a, c, s) in
+  let '(b, d, s) := if exchange b d then (d, b, negb s) else (b, d, s) in
+  let '(b, c, s) := if exchange b c then (c, b, negb s) else (b, c, s) in
+  ((a, b, c, d), s).
+
 (** ** Exclusive: no determinant is positive and negative *)
 
 Definition exclusive : list (list literal) := map (fun q => [Not q true; Not q false]) quadruples.
@@ -73,6 +87,9 @@ Definition beyond (q : tetrahedron) (v : vertex) : vertex * vertex * vertex :=
   else if same_vertex v c then (d, a, b)
   else (b, a, c).
 
+Definition same_tetrahedron (s t : tetrahedron) : bool :=
+  let '(a, b, c, d) := s in let '(a', b', c', d') := t in
+  same_vertex a a' && same_vertex b b' && same_vertex c c' && same_vertex d d'.
 Definition is_cell (T : list tetrahedron) (q : tetrahedron) : bool :=
   existsb (fun t => forallb (fun v => mem v (vertices t)) (vertices q)) T.
 
@@ -123,7 +140,9 @@ Fixpoint coherent (T : list tetrahedron) (known order : list tetrahedron) : list
 Definition orientation (T : list tetrahedron) : list tetrahedron :=
   match visit 100 T (rev (boundary T)) with
   | [] => []
-  | first :: order => if is_cell T first then first :: coherent T [first] order else []
+  | first :: order =>
+      if existsb (same_tetrahedron (fst (sorted first))) T && is_cell T first
+      then first :: coherent T [first] order else []
   end.
 Definition oriented (T : list tetrahedron) : list (list literal) :=
   map (fun q => [Is q true]) (orientation T).
@@ -211,19 +230,6 @@ Definition edges : list (list literal) :=
 
     The k-th quadruple has the variables 2k - 1 (positive) and 2k (negative). *)
 
-Definition rank (v : vertex) : nat :=
-  match v with V1 => 1 | V2 => 2 | V3 => 3 | V4 => 4 | V5 => 5 | V6 => 6 | V7 => 7 | V8 => 8 end.
-Definition exchange (v w : vertex) : bool := Nat.ltb (rank w) (rank v).
-(** The vertices in increasing order, and whether the sign stays. *)
-Definition sorted (q : tetrahedron) : tetrahedron * bool :=
-  let '(a, b, c, d) := q in
-  let '(a, b, s) := if exchange a b then (b, a, false) else (a, b, true) in
-  let '(c, d, s) := if exchange c d then (d, c, negb s) else (c, d, s) in
-  let '(a, c, s) := if exchange a c then (c, a, negb s) else (a, c, s) in
-  let '(b, d, s) := if exchange b d then (d, b, negb s) else (b, d, s) in
-  let '(b, c, s) := if exchange b c then (c, b, negb s) else (b, c, s) in
-  ((a, b, c, d), s).
-
 (** What a variable says: [table]. The variable that says it: [numbers], found by a key, and
     compared with the table. *)
 Definition atom : Type := tetrahedron * bool.
@@ -244,8 +250,7 @@ Definition numbers : P.t positive :=
   Eval vm_compute in enumerate 1 atoms (fun x n => P.add (key x) n) (P.empty positive).
 
 Definition same_atom (x y : atom) : bool :=
-  let '(a, b, c, d, s) := x in let '(a', b', c', d', s') := y in
-  same_vertex a a' && same_vertex b b' && same_vertex c c' && same_vertex d d' && eqb s s'.
+  same_tetrahedron (fst x) (fst y) && eqb (snd x) (snd y).
 Definition variable (x : atom) : option positive :=
   match P.find (key x) numbers with
   | Some n => match P.find n table with Some y => if same_atom x y then Some n else None | None => None end

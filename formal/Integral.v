@@ -70,6 +70,14 @@ Qed.
 Lemma mem_false v l : mem v l = false <-> ~ In v l.
 Proof. rewrite <- mem_iff. destruct (mem v l); split; congruence. Qed.
 
+Fixpoint distinct (l : list vertex) : bool :=
+  match l with [] => true | v :: l' => negb (mem v l') && distinct l' end.
+Lemma distinct_sound l : distinct l = true -> NoDup l.
+Proof.
+  induction l as [| v l IH]; simpl; constructor; apply andb_true_iff in H as [h1 h2]; auto.
+  apply mem_false. now destruct (mem v l).
+Qed.
+
 (** All ways to choose k members of a list, in lexicographic order. *)
 Fixpoint choices {A} (k : nat) (l : list A) : list (list A) :=
   match k, l with
