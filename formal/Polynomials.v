@@ -130,15 +130,15 @@ Variable g : bool.
 Definition sign_is (x : K) (s : sign) : Prop :=
   match s with Vanishes => x = 0 | Positive => 0 < x | Negative => 0 < - x end.
 
-Definition D (q : tetrahedron) : K := Signs.D p g q.
-Definition product (x : term) : K := D (fst x) * D (snd x).
+Local Notation D := (Signs.D p g).
+Local Notation product := (Signs.product K p g).
 Definition square (q : tetrahedron) : K := D q * D q.
 Fixpoint squares (l : list tetrahedron) : K :=
   match l with [] => 1 | q :: l' => square q * squares l' end.
 
 Lemma sorted_D q : D q = signed (snd (sorted q)) (D (fst (sorted q))).
 Proof.
-  unfold D, Signs.D. rewrite (sorted_sound K p q), !signed_signed. now destruct g, (snd (sorted q)).
+  unfold Signs.D. rewrite (sorted_sound K p q), !signed_signed. now destruct g, (snd (sorted q)).
 Qed.
 Lemma squares_app l m : squares (l ++ m) = squares l * squares m.
 Proof. induction l as [| q l IH]; simpl; [| rewrite IH]; ring. Qed.
@@ -146,7 +146,7 @@ Lemma squares_perm l m : Permutation l m -> squares l = squares m.
 Proof. induction 1; simpl; congruence || ring. Qed.
 Lemma squares_factors x : squares (factors x) = product x * product x.
 Proof.
-  unfold factors, product, squares, square. rewrite (sorted_D (fst x)), (sorted_D (snd x)).
+  unfold factors, Signs.product, squares, square. rewrite (sorted_D (fst x)), (sorted_D (snd x)).
   destruct (snd (sorted (fst x))), (snd (sorted (snd x))); cbn [signed]; ring.
 Qed.
 
@@ -165,7 +165,7 @@ Proof.
 Qed.
 Lemma sign_of_product_sound x s : sign_of_product signs x = Some s -> sign_is (product x) s.
 Proof.
-  unfold sign_of_product, product.
+  unfold sign_of_product, Signs.product.
   pose proof (sign_of_sound (fst x)) as h1. pose proof (sign_of_sound (snd x)) as h2.
   destruct (sign_of signs (fst x)) as [s1 |]; [specialize (h1 _ eq_refl) | clear h1];
     (destruct (sign_of signs (snd x)) as [s2 |]; [specialize (h2 _ eq_refl) | clear h2]);
@@ -179,7 +179,7 @@ Qed.
 
 Lemma three_terms i : product (larger i) = product (smaller i) - product (rest i).
 Proof.
-  destruct i as [[[[[s t] a] b] c] d]. unfold product, D, Signs.D. cbn [larger smaller rest fst snd volume].
+  destruct i as [[[[[s t] a] b] c] d]. unfold Signs.product, Signs.D. cbn [larger smaller rest fst snd volume].
   destruct g; cbn [signed]; coordinates.
 Qed.
 
