@@ -126,10 +126,12 @@ Definition in_unit (t : K) : Prop := 0 <= t /\ t <= 1.
 Definition positive_jacobian (p : vertex -> point) : Prop :=
   forall r s t, in_unit r -> in_unit s -> in_unit t -> 0 < jacobian p r s t.
 
-(** A realization is not mirrored if every tetrahedron at a triangle of a facet lies on the side
-    of that triangle on which it lies in the cube. *)
+(** A realization is not mirrored if every tetrahedron at a boundary triangle lies on the side of it
+    on which it lies in the cube. A boundary triangle is a triangle of a facet that belongs to one
+    tetrahedron only. *)
 Definition not_mirrored (T : list tetrahedron) (p : vertex -> point) : Prop :=
   forall t a b c d, In t T -> In (a, b, c) facet_triangles -> Permutation [a; b; c; d] (vertices t) ->
+    (forall u, In u T -> incl [a; b; c] (vertices u) -> u = t) ->
     0 < det (p a) (p b) (p c) (p d).
 
 Record valid (T : list tetrahedron) (p : vertex -> point) : Prop := Valid {

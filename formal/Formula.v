@@ -87,9 +87,6 @@ Definition beyond (q : tetrahedron) (v : vertex) : vertex * vertex * vertex :=
   else if same_vertex v c then (d, a, b)
   else (b, a, c).
 
-Definition same_tetrahedron (s t : tetrahedron) : bool :=
-  let '(a, b, c, d) := s in let '(a', b', c', d') := t in
-  same_vertex a a' && same_vertex b b' && same_vertex c c' && same_vertex d d'.
 Definition is_cell (T : list tetrahedron) (q : tetrahedron) : bool :=
   existsb (fun t => forallb (fun v => mem v (vertices t)) (vertices q)) T.
 
@@ -98,7 +95,7 @@ Definition is_cell (T : list tetrahedron) (q : tetrahedron) : bool :=
 Definition boundary (T : list tetrahedron) : list (vertex * vertex * vertex) :=
   filter (fun f => let '(a, b, c) := f in
     Nat.eqb 1 (length (filter (fun t => forallb (fun v => mem v (vertices t)) [a; b; c]) T)))
-    (flat_map (fun f => let '(a, b, c, d) := f in [(a, b, c); (a, c, d); (a, b, d); (b, c, d)]) facets).
+    (flat_map (fun f => let '(a, b, c, d) := f in [(a, b, c); (c, d, a); (d, a, b); (b, c, d)]) facets).
 
 (** Visit the tetrahedra of T: take the triangle on top of a stack, visit what contains it and was
     not visited, and push its four triangles. *)

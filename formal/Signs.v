@@ -11,12 +11,6 @@ From Coq Require Import List Bool ZArith Ring FMapPositive.
 From Certify Require Import Definitions Barycentric Integral Lrat Formula.
 Import ListNotations.
 
-Lemma same_tetrahedron_eq s t : same_tetrahedron s t = true -> s = t.
-Proof.
-  destruct s as [[[a b] c] d], t as [[[a' b'] c'] d']; simpl.
-  rewrite !andb_true_iff, !same_vertex_iff. intuition congruence.
-Qed.
-
 Section Signs.
 Variable K : ordered_field.
 Local Open Scope K_scope.
@@ -438,13 +432,17 @@ Proof.
   intros [= <-]. apply andb_true_iff in c as [c _]. apply existsb_exists in c as (t & i & c).
   now apply same_tetrahedron_eq in c as ->.
 Qed.
+Lemma sorted_not_degenerate T q : realizes T p -> In (fst (sorted q)) T -> volume p q <> zero.
+Proof.
+  intros real i z. apply (not_degenerate _ _ real _ i). rewrite (sorted_sound K p q) in z.
+  destruct (snd (sorted q)); cbn [signed] in z; auto.
+  rewrite <- (opp_opp _ (volume p _)), z. apply opp_zero.
+Qed.
 Lemma some_sign T : realizes T p -> exists g, forall q, first T = Some q -> has p g q true.
 Proof.
   intro real. destruct (first T) as [r |] eqn:e; [| now exists true].
   assert (vol : volume p r <> zero).
-  { apply first_in in e. intro z. apply (not_degenerate _ _ real _ e).
-    rewrite (sorted_sound K p r) in z. destruct (snd (sorted r)); simpl in z; auto.
-    rewrite <- (opp_opp _ (volume p _)), z. apply opp_zero. }
+  { apply first_in in e. now apply (sorted_not_degenerate T). }
   clear e. unfold has, D. destruct (trichotomy K (volume p r)) as [h | [h | h]]; [| contradiction |].
   - exists true. now intros q [= <-].
   - exists false. now intros q [= <-].
