@@ -27,29 +27,40 @@ Proof.
   repeat match goal with |- context [if exchange ?x ?y then _ else _] => destruct (exchange x y) end;
     simpl; tauto.
 Qed.
-Definition at_facet (T : list tetrahedron) : bool :=
-  match first T with
-  | Some (a, b, c, d) =>
-      existsb (fun f => let '(x, y, z) := f in
-        same_vertex a x && same_vertex b y && same_vertex c z) facet_triangles &&
-      forallb (fun u => negb (contains u [a; b; c]) ||
-        same_tetrahedron u (fst (sorted (a, b, c, d)))) T
-  | None => false
-  end.
-Lemma first_positive (K : ordered_field) (p : vertex -> point K) T : realizes T p -> not_mirrored T p ->
-  at_facet T = true -> forall q, first T = Some q -> has p true q true.
+(** Are the first three vertices of [q] a boundary triangle, of the tetrahedron [t] alone? *)
+Definition at_boundary (T : list tetrahedron) (q t : tetrahedron) : bool :=
+  let '(a, b, c, _) := q in
+  existsb (fun f => let '(x, y, z) := f in same_vertex a x && same_vertex b y && same_vertex c z)
+    facet_triangles &&
+  forallb (fun u => negb (contains u [a; b; c]) || same_tetrahedron u t) T.
+Definition starts_at_boundary (T : list tetrahedron) (start : option tetrahedron) : bool :=
+  match start with Some q => at_boundary T q (fst (sorted q)) | None => false end.
+
+Lemma positive_at_boundary (K : ordered_field) (p : vertex -> point K) T q t :
+  not_mirrored T p -> at_boundary T q t = true -> In t T ->
+  volume p q <> zero -> volume p t <> zero -> (forall v, In v (vertices t) <-> In v (vertices q)) ->
+  has p true q true.
 Proof.
-  intros real side h q e. unfold at_facet in h. rewrite e in h. apply first_in in e.
-  destruct q as [[[a b] c] d]. apply andb_true_iff in h as [h only].
-  rewrite forallb_forall in only. apply existsb_exists in h as ([[x y] z] & i & h).
+  destruct q as [[[a b] c] d]. unfold at_boundary. intros side h i nq nt same.
+  apply andb_true_iff in h as [h only]. rewrite forallb_forall in only.
+  apply existsb_exists in h as ([[x y] z] & facet & h).
   rewrite !andb_true_iff, !same_vertex_iff in h. destruct h as [[-> ->] ->].
-  pose proof (not_degenerate _ _ real _ e) as nz.
-  apply (side _ x y z d e i); [apply NoDup_Permutation |].
-  - apply (volume_nodup K p (x, y, z, d)). now apply (sorted_not_degenerate K p T).
-  - now apply (volume_nodup K p).
-  - intro v. symmetry. apply (sorted_members (x, y, z, d)).
+  apply (side t x y z d i facet).
+  - apply NoDup_Permutation.
+    + exact (volume_nodup K p _ nq).
+    + exact (volume_nodup K p _ nt).
+    + intro v. symmetry. apply same.
   - intros u iu ic. apply same_tetrahedron_eq. apply contains_iff in ic.
     specialize (only u iu). now rewrite ic in only.
+Qed.
+Lemma first_positive (K : ordered_field) (p : vertex -> point K) T : realizes T p -> not_mirrored T p ->
+  starts_at_boundary T (first T) = true -> forall q, first T = Some q -> has p true q true.
+Proof.
+  intros real side h q e. rewrite e in h. cbn [starts_at_boundary] in h. apply first_in in e.
+  apply (positive_at_boundary K p T q _ side h e).
+  - now apply (sorted_not_degenerate K p T).
+  - exact (not_degenerate _ _ real _ e).
+  - apply sorted_members.
 Qed.
 
 (** ** The replay *)
@@ -57,7 +68,7 @@ Qed.
 Lemma not_valid_tested :
   let db := axioms_loaded in
   all_two (fun x r => is_no (claimed_realizable x) || needs_sections x ||
-      at_facet (tetrahedra x) &&
+      starts_at_boundary (tetrahedra x) (first (tetrahedra x)) &&
       refuted_with (corners ++ edges ++ polynomial_clauses (fst r)) db (tetrahedra x) (snd r))
     (filter (fun x => is_no (claimed_valid x)) catalogue) valid_refutations = true.
 Proof. vm_cast_no_check (eq_refl true). Qed.
