@@ -134,6 +134,13 @@ Definition not_mirrored (T : list tetrahedron) (p : vertex -> point) : Prop :=
     (forall u, In u T -> incl [a; b; c] (vertices u) -> u = t) ->
     0 < det (p a) (p b) (p c) (p d).
 
+(** For some patterns one more property of K is assumed: that a cubic polynomial takes the value 0
+    between two places at which it has opposite signs. The real numbers have it, and so has every
+    real closed field; the rational numbers have not. *)
+Definition cubic_intermediate_values : Prop :=
+  forall a b c d : K, let f t := ((a * t + b) * t + c) * t + d in
+    f 0 < 0 -> 0 < f 1 -> exists t, 0 < t /\ t < 1 /\ f t = 0.
+
 Record valid (T : list tetrahedron) (p : vertex -> point) : Prop := Valid {
   valid_realizes : realizes T p;
   valid_not_mirrored : not_mirrored T p;

@@ -223,6 +223,25 @@ Definition edges : list (list literal) :=
     flat_map (fun v => if bit i v then [] else edge j k v (across i v)) all_vertices)
   [(Axis_r, Axis_s, Axis_t); (Axis_s, Axis_t, Axis_r); (Axis_t, Axis_r, Axis_s)].
 
+(** ** Separations
+
+    Let A and B be opposite facets. If J is positive and det A and det B have opposite signs, then a
+    plane separates A from B (Separation.v), and no circuit has one side in A and the other in B. *)
+
+Definition facet_across (i j k : axis) (side : bool) : tetrahedron :=
+  let v := if side then across i V1 else V1 in
+  (v, across j v, across k v, across k (across j v)).
+Definition separations : list (list literal) :=
+  flat_map (fun ijk => let '(i, j, k) := ijk in
+    let A := facet_across i j k false in
+    let B := facet_across i j k true in
+    flat_map (fun s => flat_map (fun q =>
+      let f := filter (fun v => mem v (vertices A)) (members q) in
+      let g := filter (fun v => mem v (vertices B)) (members q) in
+      map (fun c => Not A s :: Not B (negb s) :: c) (overlap q f g ++ overlap q g f))
+    quintuples) plus_minus)
+  [(Axis_r, Axis_s, Axis_t); (Axis_s, Axis_t, Axis_r); (Axis_t, Axis_r, Axis_s)].
+
 (** ** From literals to numbers
 
     The k-th quadruple has the variables 2k - 1 (positive) and 2k (negative). *)

@@ -1,21 +1,24 @@
-(** * Patterns that carry no valid hexahedron, as far as is proved here
+(** * 31 patterns carry no valid hexahedron
 
-    The Python kernel refutes 31 patterns. Where its refutation uses that a plane section of an
-    embedded ball is a disc (the family "sections" of FORMAT.md), it is not repeated: those patterns
-    are listed first. For the others the proofs in proofs/ are replayed, and what is not realizable
-    carries no valid hexahedron either. *)
+    The proofs refute the formula with the clauses "corners", "edges" and, for the fifteen patterns
+    listed here, "separations", which hold over fields with intermediate values of cubic
+    polynomials. What is not realizable carries no valid hexahedron either.
+
+    Where the Python kernel's refutation rests on its family "sections", that is, on the fact that a
+    plane section of an embedded ball is a disc, another proof is taken, from the folder
+    formal/proofs/. *)
 
 From Coq Require Import List Bool String Permutation.
 From Certify Require Import Definitions Barycentric Lrat Integral Pattern Formula Signs Polynomials.
-From Certify Require Import Jacobian NotRealizable.
+From Certify Require Import Jacobian Separation NotRealizable.
 From Certify Require Import Catalogue Refutations_valid.
 Import ListNotations.
 
-Definition rests_on_sections : list string :=
+Definition uses_separations : list string :=
   ["11_AD"; "11_AE"; "12_M"; "12_N"; "12_T"; "12_W"; "13_AA"; "13_AB"; "13_C"; "13_L"; "13_Y"; "13_Z";
-   "14_Q"; "14_S"; "15_I"; "15_K"]%string.
-Definition needs_sections (x : pattern) : bool :=
-  existsb (String.eqb (name x)) rests_on_sections.
+   "14_Q"; "14_S"; "15_K"]%string.
+Definition needs_separations (x : pattern) : bool :=
+  existsb (String.eqb (name x)) uses_separations.
 
 (** ** The sign of the first tetrahedron
 
@@ -67,18 +70,21 @@ Qed.
 
 Lemma not_valid_tested :
   let db := axioms_loaded in
-  all_two (fun x r => is_no (claimed_realizable x) || needs_sections x ||
+  all_two (fun x r => is_no (claimed_realizable x) ||
       starts_at_boundary (tetrahedra x) (first (tetrahedra x)) &&
-      refuted_with (corners ++ edges ++ polynomial_clauses (fst r)) db (tetrahedra x) (snd r))
+      refuted_with (corners ++ edges ++
+        (if needs_separations x then separations else polynomial_clauses (fst r)))
+        db (tetrahedra x) (snd r))
     (filter (fun x => is_no (claimed_valid x)) catalogue) valid_refutations = true.
 Proof. vm_cast_no_check (eq_refl true). Qed.
 
-Theorem valid_no x : In x catalogue -> claimed_valid x = No -> needs_sections x = false ->
-  forall (K : ordered_field) (p : vertex -> point K), ~ valid (tetrahedra x) p.
+Theorem valid_no x : In x catalogue -> claimed_valid x = No ->
+  forall K : ordered_field, cubic_intermediate_values K \/ needs_separations x = false ->
+  forall p : vertex -> point K, ~ valid (tetrahedra x) p.
 Proof.
-  intros i e ns K p [real side jac]. destruct (all_two_sound _ _ _ _ _ not_valid_tested x) as [r h].
+  intros i e K enough p [real side jac]. destruct (all_two_sound _ _ _ _ _ not_valid_tested x) as [r h].
   - apply filter_In. now rewrite e.
-  - rewrite ns, orb_false_r in h. apply orb_true_iff in h as [h | h].
+  - apply orb_true_iff in h as [h | h].
     + apply (realizable_no x i) in real; auto. now destruct (claimed_realizable x).
     + apply andb_true_iff in h as [hf h].
       pose proof (first_positive K p _ real side hf) as first_pos.
@@ -86,5 +92,7 @@ Proof.
       intros c ic. rewrite !in_app_iff in ic. destruct ic as [ic | [ic | ic]].
       * now apply corners_sound.
       * now apply edges_sound.
-      * now apply (polynomial_clauses_sound K p true (fst r)).
+      * destruct (needs_separations x).
+        -- destruct enough as [cubic | no]; [| discriminate]. now apply (separations_sound K cubic).
+        -- now apply (polynomial_clauses_sound K p true (fst r)).
 Qed.

@@ -223,23 +223,6 @@ Proof.
     destruct g; cbn [signed]; unfold origin; f_equal; coordinates.
 Qed.
 
-(** ** The clauses that use that the tetrahedra are realized *)
-
-Variable T : list tetrahedron.
-Hypothesis realized : realizes T p.
-
-(** A set of vertices within the vertices of a tetrahedron of T. *)
-Definition face (f : vertex -> Prop) : Prop :=
-  exists t, In t T /\ forall v, f v -> In v (vertices t).
-
-Lemma no_circuit q (f h : vertex -> Prop) : NoDup (members q) -> face f -> face h ->
-  (forall v, 0 < coefficient q v -> f v) -> (forall v, 0 < - coefficient q v -> h v) ->
-  forall v, coefficient q v = 0.
-Proof.
-  intros nd (s & is_ & hs) (t & it & ht) hf hh.
-  apply (no_overlap K T p s t); auto using coefficient_dependence.
-Qed.
-
 Lemma in_on q f x : In x (on q f) <-> exists v, In (v, x) (coefficients q) /\ In v f.
 Proof.
   unfold on. rewrite in_map_iff. split.
@@ -251,10 +234,14 @@ Proof.
   intros i o. unfold off. apply in_map_iff. exists (v, x). split; auto. apply filter_In.
   split; auto. simpl. now rewrite (proj2 (mem_false v f)).
 Qed.
-Lemma overlap_sound q f h cl : NoDup (members q) ->
-  face (fun v => In v f) -> face (fun v => In v h) -> In cl (overlap q f h) -> true_clause cl.
+(** The clauses of [overlap] hold if the dependence of the quintuple is zero as soon as it is positive
+    only on f and negative only on h. *)
+Lemma overlap_true q f h cl : NoDup (members q) ->
+  ((forall v, 0 < coefficient q v -> In v f) -> (forall v, 0 < - coefficient q v -> In v h) ->
+    forall v, coefficient q v = 0) ->
+  In cl (overlap q f h) -> true_clause cl.
 Proof.
-  intros nd hf hh i. apply by_contradiction. intro fail. unfold overlap in i.
+  intros nd no i. apply by_contradiction. intro fail. unfold overlap in i.
   set (escape := map (fun x => Is x true) (off q f) ++ map (fun x => Is x false) (off q h)) in i.
   assert (zero : (forall l, In l escape -> fails l) -> forall v, coefficient q v = 0).
   { intro he.
@@ -266,7 +253,7 @@ Proof.
         unfold has. now rewrite <- (coefficient_in q v x).
       - rewrite coefficient_out in pos by auto. apply (lt_irrefl K 0).
         destruct s; simpl in pos; auto. now rewrite opp_zero in pos. }
-    apply (no_circuit q (fun v => In v f) (fun v => In v h)); auto.
+    apply no.
     - apply (sided true f). intros x ix. apply (he (Is x true)). unfold escape. apply in_app_iff.
       left. now apply (in_map (fun x => Is x true)).
     - apply (sided false h). intros x ix. apply (he (Is x false)). unfold escape. apply in_app_iff.
@@ -285,6 +272,27 @@ Lemma quintuples_distinct q : In q quintuples -> NoDup (members q).
 Proof.
   intro i. apply distinct_sound. revert q i. apply forallb_forall. vm_compute. reflexivity.
 Qed.
+(** ** The clauses that use that the tetrahedra are realized *)
+
+Variable T : list tetrahedron.
+Hypothesis realized : realizes T p.
+
+(** A set of vertices within the vertices of a tetrahedron of T. *)
+Definition face (f : vertex -> Prop) : Prop :=
+  exists t, In t T /\ forall v, f v -> In v (vertices t).
+
+Lemma no_circuit q (f h : vertex -> Prop) : NoDup (members q) -> face f -> face h ->
+  (forall v, 0 < coefficient q v -> f v) -> (forall v, 0 < - coefficient q v -> h v) ->
+  forall v, coefficient q v = 0.
+Proof.
+  intros nd (s & is_ & hs) (t & it & ht) hf hh.
+  apply (no_overlap K T p s t); auto using coefficient_dependence.
+Qed.
+
+Lemma overlap_sound q f h cl : NoDup (members q) ->
+  face (fun v => In v f) -> face (fun v => In v h) -> In cl (overlap q f h) -> true_clause cl.
+Proof. intros nd hf hh. apply overlap_true; auto. now apply no_circuit. Qed.
+
 Lemma traces_face q f : In f (traces T q) -> face (fun v => In v f).
 Proof.
   unfold traces. intro i. apply filter_In in i as [i _]. apply filter_In in i as [_ i].
