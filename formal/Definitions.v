@@ -126,11 +126,20 @@ Definition in_unit (t : K) : Prop := 0 <= t /\ t <= 1.
 Definition positive_jacobian (p : vertex -> point) : Prop :=
   forall r s t, in_unit r -> in_unit s -> in_unit t -> 0 < jacobian p r s t.
 
-(** A realization is not mirrored if every tetrahedron at a triangle of a facet lies on the side
-    of that triangle on which it lies in the cube. *)
+(** A realization is not mirrored if every tetrahedron at a boundary triangle lies on the side of it
+    on which it lies in the cube. A boundary triangle is a triangle of a facet that belongs to one
+    tetrahedron only. *)
 Definition not_mirrored (T : list tetrahedron) (p : vertex -> point) : Prop :=
   forall t a b c d, In t T -> In (a, b, c) facet_triangles -> Permutation [a; b; c; d] (vertices t) ->
+    (forall u, In u T -> incl [a; b; c] (vertices u) -> u = t) ->
     0 < det (p a) (p b) (p c) (p d).
+
+(** For some patterns one more property of K is assumed: that a cubic polynomial takes the value 0
+    between two places at which it has opposite signs. The real numbers have it, and so has every
+    real closed field; the rational numbers have not. *)
+Definition cubic_intermediate_values : Prop :=
+  forall a b c d : K, let f t := ((a * t + b) * t + c) * t + d in
+    f 0 < 0 -> 0 < f 1 -> exists t, 0 < t /\ t < 1 /\ f t = 0.
 
 Record valid (T : list tetrahedron) (p : vertex -> point) : Prop := Valid {
   valid_realizes : realizes T p;

@@ -83,6 +83,8 @@ Implicit Types x y z : K.
 
 Lemma opp_zero : - (0 : K) = 0.
 Proof. ring. Qed.
+Lemma opp_opp x : - - x = x.
+Proof. ring. Qed.
 Lemma sub_zero_eq x y : x - y = 0 -> x = y.
 Proof. intro h. replace x with (x - y + y) by ring. rewrite h. ring. Qed.
 

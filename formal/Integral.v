@@ -60,6 +60,18 @@ Definition same_vertex (v w : vertex) : bool :=
   end.
 Lemma same_vertex_iff v w : same_vertex v w = true <-> v = w.
 Proof. destruct v, w; simpl; split; congruence. Qed.
+Definition same_tetrahedron (s t : tetrahedron) : bool :=
+  let '(a, b, c, d) := s in let '(a', b', c', d') := t in
+  same_vertex a a' && same_vertex b b' && same_vertex c c' && same_vertex d d'.
+Lemma same_tetrahedron_eq s t : same_tetrahedron s t = true -> s = t.
+Proof.
+  destruct s as [[[a b] c] d], t as [[[a' b'] c'] d']; simpl.
+  rewrite !andb_true_iff, !same_vertex_iff. intuition congruence.
+Qed.
+Lemma same_tetrahedron_refl t : same_tetrahedron t t = true.
+Proof.
+  destruct t as [[[a b] c] d]; simpl. rewrite !andb_true_iff, !same_vertex_iff. auto.
+Qed.
 Definition mem (v : vertex) (l : list vertex) : bool := existsb (same_vertex v) l.
 Lemma mem_iff v l : mem v l = true <-> In v l.
 Proof.
@@ -69,6 +81,20 @@ Proof.
 Qed.
 Lemma mem_false v l : mem v l = false <-> ~ In v l.
 Proof. rewrite <- mem_iff. destruct (mem v l); split; congruence. Qed.
+
+Definition contains (t : tetrahedron) (l : list vertex) : bool :=
+  forallb (fun v => mem v (vertices t)) l.
+Lemma contains_iff t l : contains t l = true <-> incl l (vertices t).
+Proof.
+  unfold contains. rewrite forallb_forall. split; intros h v i; [apply mem_iff | apply mem_iff]; auto.
+Qed.
+Fixpoint distinct (l : list vertex) : bool :=
+  match l with [] => true | v :: l' => negb (mem v l') && distinct l' end.
+Lemma distinct_sound l : distinct l = true -> NoDup l.
+Proof.
+  induction l as [| v l IH]; simpl; constructor; apply andb_true_iff in H as [h1 h2]; auto.
+  apply mem_false. now destruct (mem v l).
+Qed.
 
 (** All ways to choose k members of a list, in lexicographic order. *)
 Fixpoint choices {A} (k : nat) (l : list A) : list (list A) :=
@@ -153,10 +179,11 @@ Definition extreme_test (v : vertex) : bool :=
   forallb (fun u => same_vertex u v || (0 <? value f (p u))) all_vertices.
 Definition convex_test : bool := forallb extreme_test all_vertices.
 
-(** Tetrahedra at triangles of facets are positive. *)
+(** Tetrahedra at boundary triangles are positive. *)
 Definition not_mirrored_test (T : list tetrahedron) : bool :=
   forallb (fun t => forallb (fun f => let '(a, b, c) := f in
-    negb (mem a (vertices t) && mem b (vertices t) && mem c (vertices t)) ||
+    negb (contains t [a; b; c]) ||
+    existsb (fun u => negb (same_tetrahedron u t) && contains u [a; b; c]) T ||
     forallb (fun d => mem d [a; b; c] || (0 <? zdet (p a) (p b) (p c) (p d))) (vertices t))
     facet_triangles) T.
 End Tests.
@@ -349,12 +376,15 @@ Qed.
 Theorem not_mirrored_test_sound T : (forall t, In t T -> volume imaged t <> 0) ->
   not_mirrored_test p T = true -> not_mirrored T imaged.
 Proof.
-  unfold not_mirrored_test. rewrite forallb_forall. intros nd h t a b c d it f perm.
+  unfold not_mirrored_test. rewrite forallb_forall. intros nd h t a b c d it f perm only.
   specialize (h t it). rewrite forallb_forall in h. specialize (h _ f). cbv beta iota zeta in h.
   assert (i : forall v, In v [a; b; c; d] -> In v (vertices t)).
   { intros v hv. now apply (Permutation_in v perm). }
-  apply orb_true_iff in h as [h | h].
-  - exfalso. rewrite !(proj2 (mem_iff _ _)) in h by (apply i; simpl; tauto). discriminate.
+  assert (in_t : contains t [a; b; c] = true).
+  { apply contains_iff. intros v hv. apply i. simpl in *; tauto. }
+  rewrite in_t in h. simpl negb in h. apply orb_true_iff in h as [h | h].
+  - exfalso. apply existsb_exists in h as (u & iu & h). apply andb_true_iff in h as [h1 h2].
+    apply contains_iff, (only u iu) in h2 as ->. now rewrite same_tetrahedron_refl in h1.
   - rewrite forallb_forall in h. specialize (h d (i d ltac:(simpl; tauto))).
     unfold imaged. rewrite image_det. apply phi_pos, Z.ltb_lt.
     apply orb_true_iff in h as [h | h]; auto. exfalso. apply mem_iff in h.
