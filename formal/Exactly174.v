@@ -195,3 +195,6 @@ Proof.
   - exact (all_differ_sound pattern tetrahedra catalogue catalogue_differs).
   - exact every_triangulation.
 Qed.
+
+Check exactly_174.
+Print Assumptions exactly_174.
