@@ -35,7 +35,7 @@ Lemma at_list_map s v : at_list (map s all_vertices) v = s v.
 Proof. now destruct v. Qed.
 
 Definition takes_facets (s : vertex -> vertex) : bool :=
-  forallb (fun f => existsb (fun g => subset (map s (vertices f)) (vertices g)) facets) facets.
+  every (fun f => any (fun g => subset (map s (vertices f)) (vertices g)) facets) facets.
 Definition symmetries : list (list vertex) :=
   Eval vm_compute in filter (fun l => takes_facets (at_list l)) (injections 8).
 
@@ -47,14 +47,14 @@ Proof. reflexivity. Qed.
 Lemma takes_facets_ext s r : (forall v, s v = r v) -> takes_facets s = takes_facets r.
 Proof.
   intro h. unfold takes_facets. generalize facets at 2 4. intro l.
-  induction l as [| f l IH]; cbn [forallb]; auto. now rewrite IH, (map_ext s r h).
+  induction l as [| f l IH]; cbn [every]; auto. now rewrite IH, (map_ext s r h).
 Qed.
 Theorem symmetry_listed s : symmetry s -> In (map s all_vertices) symmetries.
 Proof.
   intros [inj h]. rewrite symmetries_are. apply filter_In. split.
   - apply in_injections, FinFun.Injective_map_NoDup; [exact inj | apply all_vertices_nodup].
-  - rewrite (takes_facets_ext _ s) by apply at_list_map. apply forallb_forall. intros f i.
-    destruct (h f i) as (g & j & p). apply existsb_exists. exists g. split; auto.
+  - rewrite (takes_facets_ext _ s) by apply at_list_map. apply every_forall. intros f i.
+    destruct (h f i) as (g & j & p). apply any_exists. exists g. split; auto.
     apply subset_iff. intro v. now apply Permutation_in.
 Qed.
 
@@ -62,12 +62,12 @@ Qed.
 Lemma symmetries_sound l : In l symmetries -> exists m, In m symmetries /\
   (forall v, at_list m (at_list l v) = v) /\ takes_facets (at_list l) = true.
 Proof.
-  assert (k : forallb (fun l => existsb (fun m =>
-    forallb (fun v => same_vertex (at_list m (at_list l v)) v) all_vertices) symmetries &&
+  assert (k : every (fun l => any (fun m =>
+    every (fun v => same_vertex (at_list m (at_list l v)) v) all_vertices) symmetries &&
       takes_facets (at_list l)) symmetries = true) by (vm_compute; reflexivity).
-  rewrite forallb_forall in k. intro i. apply k in i. apply andb_true_iff in i as [i t].
-  apply existsb_exists in i as (m & j & h). exists m. repeat split; auto. intro v.
-  rewrite forallb_forall in h. apply same_vertex_iff, h, in_all_vertices.
+  rewrite every_forall in k. intro i. apply k in i. apply andb_true_iff in i as [i t].
+  apply any_exists in i as (m & j & h). exists m. repeat split; auto. intro v.
+  rewrite every_forall in h. apply same_vertex_iff, h, in_all_vertices.
 Qed.
 Lemma listed_symmetry l : In l symmetries -> symmetry (at_list l).
 Proof.
@@ -76,8 +76,8 @@ Proof.
   { intros v w e. now rewrite <- (u v), <- (u w), e. }
   split; auto. intros f j. assert (d : NoDup (map (at_list l) (vertices f))).
   { apply FinFun.Injective_map_NoDup; [exact inj |]. now apply facet_nodup. }
-  unfold takes_facets in h. rewrite forallb_forall in h. apply h in j.
-  apply existsb_exists in j as (g & j & s). exists g. split; auto.
+  unfold takes_facets in h. rewrite every_forall in h. apply h in j.
+  apply any_exists in j as (g & j & s). exists g. split; auto.
   apply permutation_subset; auto. now rewrite map_length, !length_vertices.
 Qed.
 Theorem inverse s : symmetry s ->
