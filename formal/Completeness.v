@@ -467,7 +467,6 @@ End Formula.
     statements and back; since the second is found by a key, whose uniqueness need not be proved,
     every look-up is tested with the first. *)
 
-Definition same_face (f g : list vertex) : bool := subset f g && subset g f.
 Fixpoint equal_faces (f g : list vertex) : bool :=
   match f, g with
   | [], [] => true
@@ -496,8 +495,6 @@ Proof.
     destruct k, l; auto; discriminate.
 Qed.
 
-Definition bits (l : list bool) (p : positive) : positive :=
-  fold_right (fun (b : bool) p => if b then xI p else xO p) p l.
 Definition vertex_bits (v : vertex) : list bool :=
   match v with
   | V1 => [false; false; false] | V2 => [true; false; false]
@@ -510,9 +507,9 @@ Definition number_bits (n : nat) : list bool :=
   map (fun power => negb (Nat.even (n / power))) [1; 2; 4; 8; 16; 32].
 Definition key (x : atom) : positive :=
   match x with
-  | Used f => xO (bits (flat_map vertex_bits f) xH)
+  | Used f => xO (bits (flat_map vertex_bits f))
   | At_least k v n j =>
-      xI (bits (same_kind k Edges :: vertex_bits v ++ number_bits n ++ number_bits j) xH)
+      xI (bits (same_kind k Edges :: vertex_bits v ++ number_bits n ++ number_bits j))
   end.
 
 Fixpoint by_number (n : positive) (l : list atom) (m : P.t atom) : P.t atom :=

@@ -4,7 +4,7 @@
     faces with k vertices are [choices k all_vertices]. To count is to count members of these lists
     that pass a test. *)
 
-From Coq Require Import List Bool Permutation PeanoNat Lia.
+From Coq Require Import List Bool Permutation PeanoNat PArith Lia.
 From Certify Require Import Barycentric Integral.
 From Certify Require Export Triangulation.
 Import ListNotations.
@@ -36,6 +36,10 @@ Proof. destruct a, b; intuition discriminate. Qed.
 Lemma lazy_or (a b : bool) : (a ||| b) = true <-> a = true \/ b = true.
 Proof. destruct a, b; intuition discriminate. Qed.
 
+(** Truth values as the digits of one number. *)
+Definition bits (l : list bool) : positive :=
+  fold_right (fun (b : bool) p => if b then xI p else xO p) xH l.
+
 (** ** Counting *)
 
 Fixpoint count {A} (f : A -> bool) (l : list A) : nat :=
@@ -65,7 +69,8 @@ Lemma count_length f l : count f l = length (filter f l).
 Proof. induction l as [| x l IH]; simpl; auto. destruct (f x); simpl; lia. Qed.
 Lemma count_le f l : count f l <= length l.
 Proof. induction l as [| x l IH]; simpl; auto. destruct (f x); simpl; lia. Qed.
-Lemma count_split f g l : count f l = count (fun x => g x && f x) l + count (fun x => negb (g x) && f x) l.
+Lemma count_split f g l :
+  count f l = count (fun x => g x && f x) l + count (fun x => negb (g x) && f x) l.
 Proof. induction l as [| x l IH]; simpl; auto. destruct (g x); simpl; lia. Qed.
 Lemma count_zero f l : count f l = 0 <-> forall x, In x l -> f x = false.
 Proof.
@@ -148,11 +153,6 @@ Proof.
   intros hk h. rewrite <- distinct_iff, <- Nat.eqb_eq, <- andb_true_iff. revert f h.
   apply forallb_forall. destruct k as [| [| [| [| [| k]]]]]; try lia; vm_compute; reflexivity.
 Qed.
-Lemma face_1 f : In f (faces 1) -> exists a, f = [a].
-Proof.
-  intro h. apply face_nodup in h as [_ h]; [| lia].
-  destruct f as [| a [|]]; try discriminate. now exists a.
-Qed.
 Lemma face_2 f : In f (faces 2) -> exists a b, f = [a; b] /\ a <> b.
 Proof.
   intro h. apply face_nodup in h as [n h]; [| lia].
@@ -164,14 +164,10 @@ Proof.
   intro h. apply face_nodup in h as [n h]; [| lia].
   destruct f as [| a [| b [| c [|]]]]; try discriminate. now exists a, b, c.
 Qed.
-Lemma face_4 f : In f (faces 4) -> exists a b c d, f = [a; b; c; d] /\ NoDup [a; b; c; d].
-Proof.
-  intro h. apply face_nodup in h as [n h]; [| lia].
-  destruct f as [| a [| b [| c [| d [|]]]]]; try discriminate. now exists a, b, c, d.
-Qed.
 
 (** Permutations of faces, by inclusion. *)
-Lemma permutation_subset f g : NoDup f -> length g <= length f -> subset f g = true -> Permutation f g.
+Lemma permutation_subset f g :
+  NoDup f -> length g <= length f -> subset f g = true -> Permutation f g.
 Proof. intros. apply NoDup_Permutation_bis; auto. now apply subset_iff. Qed.
 Lemma permutation_iff f g : NoDup f -> length f = length g ->
   (Permutation f g <-> subset f g = true).

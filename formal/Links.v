@@ -84,7 +84,8 @@ Qed.
 Lemma no_point D c f : ~ point D c -> In c f -> covers D f = false.
 Proof.
   intros h i. apply not_true_iff_false. intro k. apply covers_iff in k as ([[x y] z] & j & k).
-  rewrite subset_iff in k. apply k in i. apply h. destruct (face_orders D x y z j) as (o1 & _ & o2 & _ & o3 & _).
+  rewrite subset_iff in k. apply k in i. apply h.
+  destruct (face_orders D x y z j) as (o1 & _ & o2 & _ & o3 & _).
   destruct i as [<- | [<- | [<- | []]]]; eexists; eexists; eassumption.
 Qed.
 Lemma no_edge D a c f : a <> c -> ~ edge D a c -> In a f -> In c f -> covers D f = false.
@@ -92,13 +93,15 @@ Proof.
   intros ne h i i'. apply not_true_iff_false. intro k. apply covers_iff in k as ([[x y] z] & j & k).
   rewrite subset_iff in k. apply k in i, i'. apply h.
   destruct (face_orders D x y z j) as (o1 & o2 & o3 & o4 & o5 & o6).
-  destruct i as [<- | [<- | [<- | []]]], i' as [<- | [<- | [<- | []]]]; try congruence; eexists; eassumption.
+  destruct i as [<- | [<- | [<- | []]]], i' as [<- | [<- | [<- | []]]];
+    try congruence; eexists; eassumption.
 Qed.
 Lemma subset_cons v f g : subset (v :: f) g = mem v g && subset f g.
 Proof. reflexivity. Qed.
 Lemma disc_nodup D : disc D -> forall t, In t D -> NoDup (corners t).
 Proof.
-  assert (ne : forall D a b, disc D -> (forall t, In t D -> NoDup (corners t)) -> rim D a b -> a <> b).
+  assert (ne : forall D a b,
+    disc D -> (forall t, In t D -> NoDup (corners t)) -> rim D a b -> a <> b).
   { intros D' a b _ h (c & (t & i & p) & _). apply h in i.
     pose proof (Permutation_NoDup (Permutation_sym p) i) as n. inversion n; simpl in *. intuition. }
   induction 1 as [a b c n | D a b c d IH r np | D a b c d IH r r' nac n]; simpl.
@@ -145,7 +148,8 @@ Lemma consecutive_later v l x y : consecutive l x y -> consecutive (v :: l) x y.
 Proof. intros (before & after & ->). now exists (v :: before), after. Qed.
 Lemma consecutive_in l x y : consecutive l x y -> In x l /\ In y l.
 Proof. intros (before & after & ->). rewrite !in_app_iff. simpl. tauto. Qed.
-Lemma along (A : Type) (part : vertex -> A) l : (forall x y, consecutive l x y -> part x = part y) ->
+Lemma along (A : Type) (part : vertex -> A) l :
+  (forall x y, consecutive l x y -> part x = part y) ->
   forall x y, In x l -> In y l -> part x = part y.
 Proof.
   assert (first : forall l v, (forall x y, consecutive (v :: l) x y -> part x = part y) ->
@@ -283,7 +287,8 @@ Lemma degree_cases f : In f (faces 3) ->
 Proof.
   intro i. pose proof (face_3 f i) as (a & b & c & -> & n).
   destruct (covers B [a; b; c]) eqn:e.
-  - apply face_covers, (boundary B T tri) in e as [d h]; auto. now apply (degree_apexes T T_nodup _ _ _ [d]).
+  - apply face_covers, (boundary B T tri) in e as [d h]; auto.
+    now apply (degree_apexes T T_nodup _ _ _ [d]).
   - destruct (at_most_two B T tri a b c n) as (ds & h & le).
     rewrite (degree_apexes T T_nodup a b c ds i h). destruct ds as [| d [| d' [|]]]; simpl in *; try lia.
     exfalso. apply not_true_iff_false in e. apply e, face_covers, (boundary B T tri); auto.
@@ -372,7 +377,8 @@ Proof.
   { intros u w. apply spans_permutation, perm_skip, perm_skip, perm_swap. }
   assert (e : mem x C = mem o C).
   { destruct (two x ix) as (p & _ & _ & _ & _ & s & _).
-    apply (connected bool (spans T a b) (fun v => mem v C) (edge_links B T tri a b ne)) with (y := p) (y' := y); auto.
+    apply (connected bool (spans T a b) (fun v => mem v C) (edge_links B T tri a b ne))
+      with (y := p) (y' := y); auto.
     intros u w s'. apply eq_true_iff_eq. rewrite !mem_iff. split; eauto. }
   apply mem_iff in ix. apply mem_false in no. congruence.
 Qed.

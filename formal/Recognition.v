@@ -225,8 +225,10 @@ Proof.
   rewrite (spans_used T tested_nodup).
   assert (k : NoDup [a; b; c] -> (covers D [a; b; c] = negb (mem v [a; b; c]) && used T [v; a; b; c])).
   { intro n. rewrite every_forall in h. specialize (h _ (increasing_face _ n)).
-    assert (e : forall w, In w (increasing [a; b; c]) <-> In w [a; b; c]) by (intro; apply in_increasing).
-    apply eqb_prop in h. change (covers D (increasing [a; b; c]) = negb (mem v (increasing [a; b; c])) && used T (v :: increasing [a; b; c])) in h.
+    assert (e : forall w, In w (increasing [a; b; c]) <-> In w [a; b; c])
+      by (intro; apply in_increasing).
+    apply eqb_prop in h. set (f := increasing [a; b; c]) in *.
+    change (covers D f = negb (mem v f) && used T (v :: f)) in h.
     rewrite (covers_same D _ [a; b; c]) in h by exact e. rewrite h. f_equal.
     - f_equal. apply eq_true_iff_eq. rewrite !mem_iff. apply e.
     - apply used_same. intro w. specialize (e w). cbn [In] in *. tauto. }
@@ -308,8 +310,6 @@ Qed.
     A set of tetrahedra is coded as one number, with a bit for each quadruple. The orbit of T has
     the codes of its images under the 48 symmetries. *)
 
-Definition bits (l : list bool) : positive :=
-  fold_right (fun (b : bool) p => if b then xI p else xO p) xH l.
 Definition mask (f : list vertex) : positive := bits (map (fun v => mem v f) all_vertices).
 Definition masks : list positive := Eval vm_compute in map mask (faces 4).
 Definition code (T : list tetrahedron) : positive :=
