@@ -5,7 +5,7 @@ the tetrahedron on the positive side of xpz, which is the one whose fourth verte
 det(p-x, z-x, w-x) positive, or -1. All is linear in the number of tetrahedra, whatever the degrees.
 """
 
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,27 +13,35 @@ from numpy.typing import NDArray
 from certify.mesh.compiled import compiled
 from certify.mesh.signs import Floats
 
-Ints = NDArray[np.int32]
+Ints: TypeAlias = NDArray[np.int32]
+Words: TypeAlias = NDArray[np.uint64]
 
 
 class Rings(NamedTuple):
     """A mesh of tetrahedra with positive determinants, ready to be searched.
 
-    points: (n, 3); tetrahedra: (m, 4); across: (m, 4), the neighbour opposite to each vertex, or
-    -1; first: where the edges from each vertex begin, and the end; heads: to where they lead,
-    increasing; start: where the ring of each edge begins, and the end; apex, inner: the entries;
-    rounding: for each vertex a bound of the error of determinants of three edges from it.
+    points: (n, 3); rounding: for each vertex a bound of the error of determinants of three edges
+    from it; tetrahedra: (m, 4); across: (m, 4), the neighbour opposite to each vertex, or -1.
+    Edges: first, where those from each vertex begin, and the end; heads, to where they lead,
+    increasing; reverse, the edge back.
+    Rings: start, where that of each edge begins, and the end; apex, the vertices z; inner, the
+    tetrahedra; near and far, the edges xz and pz; hint, a word for each edge that has the bit of
+    every z, see :func:`meets`.
     """
 
     points: Floats
+    rounding: NDArray[np.float64]
     tetrahedra: Ints
     across: Ints
     first: Ints
     heads: Ints
+    reverse: Ints
     start: Ints
     apex: Ints
     inner: Ints
-    rounding: NDArray[np.float64]
+    near: Ints
+    far: Ints
+    hint: Words
 
 
 def rings(points: Floats, tetrahedra: Ints) -> Rings:
@@ -44,8 +52,21 @@ def rings(points: Floats, tetrahedra: Ints) -> Rings:
     start, apex, inner = _entries(begin, around, tetrahedra, first, heads)
     _pair(tetrahedra, first, heads, start, apex, inner, across)
     start, apex, inner = _with_the_hull(tetrahedra, across, first, heads, start, apex, inner)
-    rounding = _rounding(points, first, heads)
-    return Rings(points, tetrahedra, across, first, heads, start, apex, inner, rounding)
+    reverse, near, far, hint = _links(first, heads, start, apex)
+    return Rings(
+        points, _rounding(points, first, heads), tetrahedra, across,
+        first, heads, reverse, start, apex, inner, near, far, hint,
+    )  # fmt: skip
+
+
+@compiled
+def meets(rings: Rings, edge: int, vertex: int) -> int:
+    """Return the entry of a vertex in the ring of an edge, or -1."""
+    if rings.hint[edge] >> np.uint64(vertex & 63) & np.uint64(1):
+        for k in range(rings.start[edge], rings.start[edge + 1]):
+            if rings.apex[k] == vertex:
+                return k
+    return -1
 
 
 _NEXT = np.array([[1, 2, 3], [0, 3, 2], [3, 0, 1], [2, 1, 0]], np.int64)
@@ -202,6 +223,30 @@ def _with_the_hull(
                     found += 1
     starts[-1] = found
     return starts, apices, inners
+
+
+@compiled
+def _links(first: Ints, heads: Ints, start: Ints, apex: Ints) -> tuple[Ints, Ints, Ints, Words]:
+    """Return the reverse edges, those from both ends to the vertices on rings, and the hints."""
+    count = len(first) - 1
+    reverse, near, far = np.empty_like(heads), np.empty_like(apex), np.empty_like(apex)
+    hint = np.zeros(len(heads), np.uint64)
+    place, entry = first.copy(), np.empty(count, np.int32)
+    for x in range(count):  # the heads of edges increase: so the edges back are met in order
+        for e in range(first[x], first[x + 1]):
+            reverse[e] = place[heads[e]]
+            place[heads[e]] += 1
+            entry[heads[e]] = e
+        for k in range(start[first[x]], start[first[x + 1]]):
+            near[k] = entry[apex[k]]
+    for e in range(len(heads)):
+        for k in range(start[e], start[e + 1]):
+            entry[apex[k]] = near[k]
+            hint[e] |= np.uint64(1) << np.uint64(apex[k] & 63)
+        back = reverse[e]
+        for k in range(start[back], start[back + 1]):
+            far[k] = entry[apex[k]]
+    return reverse, near, far, hint
 
 
 @compiled

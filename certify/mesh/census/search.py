@@ -1,331 +1,264 @@
-"""The search (draft)."""
+"""The search for all valid hexahedra of a mesh, each from its least vertex.
+
+The hexahedron has the vertices
+
+    v p s1 q r s3 t s2
+
+in the order of the template: v is the least, its neighbours are p, q and r, and opposite to v on
+the facets that they span are s1 (p and q), s2 (q and r) and s3 (r and p). The quadrilaterals
+at v are joined, three around v, and then the far corner t is sought on the other three facets. At
+every corner the three edges have a positive determinant, which is the Jacobian there; whatever
+certainly has not is left as soon as its vertices are known.
+"""
+
+from typing import NamedTuple
+
 import numpy as np
+from numpy.typing import NDArray
+
+from certify.mesh.census.region import Table, Walk, region, walk
+from certify.mesh.census.rings import Ints, Rings, meets
+from certify.mesh.census.star import BOTH, Star, grown, star, turned
 from certify.mesh.compiled import compiled
 from certify.mesh.jacobian import filtered_jacobian, workspace
 from certify.mesh.signs import UNKNOWN
-from certify.mesh.census.region import region, walk
+
+V, P, S1, Q, R, S3, T, S2 = range(8)
+
+
+class Memory(NamedTuple):
+    """What the search writes on.
+
+    eight: the hexahedron; kinds: of its facets; runs: of quadrilaterals, those of p and q as seen
+    from q, of q and r as seen from q, and of r and p as seen from p; ends: the candidates for t,
+    each with the kind of the facet at q; walk, boxes, edges, points: for what is called.
+    """
+
+    eight: Ints
+    kinds: Ints
+    runs: Ints
+    ends: Ints
+    walk: Walk
+    boxes: NDArray[np.float64]
+    edges: NDArray[np.float64]
+    points: NDArray[np.float64]
 
 
 @compiled
-def edge_to(rings, x, p):
-    low, high = rings.first[x], rings.first[x + 1]
-    while low < high:
-        mid = (low + high) >> 1
-        if rings.heads[mid] < p:
-            low = mid + 1
-        else:
-            high = mid
-    if low < rings.first[x + 1] and rings.heads[low] == p:
-        return low
-    return -1
+def _memory(rings: Rings) -> Memory:
+    longest = 0
+    for e in range(len(rings.heads)):
+        longest = max(longest, rings.start[e + 1] - rings.start[e])
+    boxes, edges = workspace()
+    return Memory(
+        np.empty(8, np.int32),
+        np.empty(6, np.int32),
+        np.empty(3, np.int32),
+        np.empty((2 * longest + 1, 2), np.int32),
+        walk(len(rings.points)),
+        boxes,
+        edges,
+        np.empty((8, 3)),
+    )
 
 
 @compiled
-def on_ring(rings, e, z):
-    for k in range(rings.start[e], rings.start[e + 1]):
-        if rings.apex[k] == z:
-            return k
-    return -1
+def search(rings: Rings, table: Table, begin: int, end: int) -> Ints:
+    """Return the hexahedra whose least vertex is in a range: eight vertices, and what it is.
+
+    That is the number of the labelled triangulation, i, if the filter knows that the Jacobian is
+    positive; if it does not know it is -1 - i.
+    """
+    memory = _memory(rings)
+    number, mark = np.full(len(rings.points), -1, np.int32), np.full(16, -1, np.int32)
+    rows, out, found = np.empty((256, 6), np.int32), np.empty((1024, 9), np.int32), 0
+    for v in range(begin, end):
+        quadrilaterals, rows = star(rings, v, number, rows)
+        if quadrilaterals.count > len(mark):
+            mark = np.full(2 * quadrilaterals.count, -1, np.int32)
+        memory.eight[V] = v
+        found, out = _joined(rings, table, memory, quadrilaterals, mark, found, out)
+    return out[:found]
 
 
 @compiled
-def bent(rings, x, a, b, c):
-    """Is det(a-x, b-x, c-x) certainly <= 0?"""
-    P = rings.points
-    x0, x1, x2 = P[x, 0], P[x, 1], P[x, 2]
-    a0, a1, a2 = P[a, 0] - x0, P[a, 1] - x1, P[a, 2] - x2
-    b0, b1, b2 = P[b, 0] - x0, P[b, 1] - x1, P[b, 2] - x2
-    c0, c1, c2 = P[c, 0] - x0, P[c, 1] - x1, P[c, 2] - x2
-    value = a0 * (b1 * c2 - b2 * c1) - a1 * (b0 * c2 - b2 * c0) + a2 * (b0 * c1 - b1 * c0)
+def bent(rings: Rings, x: int, a: int, b: int, c: int) -> bool:
+    """Is det(a-x, b-x, c-x) certainly not positive?"""
+    points = rings.points
+    x0, x1, x2 = points[x, 0], points[x, 1], points[x, 2]
+    a0, a1, a2 = points[a, 0] - x0, points[a, 1] - x1, points[a, 2] - x2
+    b0, b1, b2 = points[b, 0] - x0, points[b, 1] - x1, points[b, 2] - x2
+    c0, c1, c2 = points[c, 0] - x0, points[c, 1] - x1, points[c, 2] - x2
+    value = a0 * (b1 * c2 - b2 * c1) + a1 * (b2 * c0 - b0 * c2) + a2 * (b0 * c1 - b1 * c0)
     return value <= -rings.rounding[x]
 
 
 @compiled
-def quads_at(rings, v, local, raw):
-    """Quads at v: raw rows (i, j, s, kind, e(i->s), e(j->s)), i<j local numbers of neighbours (index in rings.first[v]..). Returns raw, count."""
-    f0, f1 = rings.first[v], rings.first[v + 1]
-    n = 0
-    for a in range(f0, f1):
-        s = rings.heads[a]
-        if s < v:
-            continue
-        # diagonal v-s: pairs on ring(v->s)
-        b0, b1 = rings.start[a], rings.start[a + 1]
-        for k in range(b0, b1):
-            p = rings.apex[k]
-            if p < v:
+def _joined(
+    rings: Rings, table: Table, memory: Memory, at: Star, mark: Ints, found: int, out: Ints
+) -> tuple[int, Ints]:
+    """Add the hexahedra from v. Of the three neighbours, q has the least number.
+
+    mark: a scratch number for each neighbour; it is -1 except as said here.
+    """
+    eight, runs = memory.eight, memory.runs
+    v, first = eight[V], rings.first[eight[V]]
+    for q in range(at.count):
+        eight[Q] = rings.heads[first + q]
+        for a in range(at.begin[q], at.begin[q + 1]):
+            p = at.q[a]
+            if p < q:
                 continue
-            eps = edge_to(rings, p, s)
-            ip = local[p]
-            for m in range(k + 1, b1):
-                q = rings.apex[m]
-                if q < v:
+            eight[P] = rings.heads[first + p]
+            for c in range(at.begin[p], at.begin[p + 1]):
+                mark[at.q[c]] = c
+            for b in range(at.begin[q], at.begin[q + 1]):
+                r = at.q[b]
+                if r > q and mark[r] >= 0:
+                    eight[R] = rings.heads[first + r]
+                    if not bent(rings, v, eight[P], eight[Q], eight[R]):
+                        runs[0], runs[1], runs[2] = a, b, mark[r]
+                        found, out = _around(rings, table, memory, at, found, out)
+            for c in range(at.begin[p], at.begin[p + 1]):
+                mark[at.q[c]] = -1
+    return found, out
+
+
+@compiled
+def _around(
+    rings: Rings, table: Table, memory: Memory, at: Star, found: int, out: Ints
+) -> tuple[int, Ints]:
+    """Add the hexahedra with known v, p, q, r: choose s1 and s2, then s3, then t."""
+    eight, (run_a, run_b, run_c) = memory.eight, memory.runs
+    v, p, q, r = eight[V], eight[P], eight[Q], eight[R]
+    for a in range(at.start[run_a], at.start[run_a + 1]):
+        s1 = at.s[a]
+        if s1 == r:
+            continue
+        eight[S1] = s1
+        for b in range(at.start[run_b], at.start[run_b + 1]):
+            s2 = at.s[b]
+            if s2 in (p, s1) or bent(rings, q, v, s1, s2):
+                continue
+            eight[S2] = s2
+            ends = _ends(rings, memory, at.to_p[a], at.to_p[b])
+            if not ends:
+                continue
+            for c in range(at.start[run_c], at.start[run_c + 1]):
+                s3 = at.s[c]
+                if s3 in (q, s1, s2) or bent(rings, p, v, s3, s1) or bent(rings, r, v, s2, s3):
                     continue
-                iq = local[q]
-                kind = 1
-                if on_ring(rings, eps, q) >= 0:
-                    kk = on_ring(rings, f0 + ip, q)
-                    if kk >= 0:
-                        kind = 3
-                        # tetrahedron v p s q positive?
-                        if rings.inner[k] >= 0 and has(rings, rings.inner[k], q):
-                            kind = 5
-                        elif rings.inner[m] >= 0 and has(rings, rings.inner[m], p):
-                            kind = 4
-                eqs = edge_to(rings, q, s)
-                if n == len(raw):
-                    raw = grown(raw)
-                raw[n, 2] = s
-                if ip < iq:
-                    raw[n, 0], raw[n, 1], raw[n, 4], raw[n, 5] = ip, iq, eps, eqs
-                    # orientation (v,p,s,q): apex on positive side of (v,s,p)... see below
-                    raw[n, 3] = kind
+                eight[S3] = s3
+                for i in range(ends):
+                    if _closed(rings, memory, i, at.to_q[a], at.to_q[b], at.to_p[c], at.to_q[c]):
+                        own = _decided(
+                            rings, table, memory, at.to_p[a], at.kind[a], at.kind[b], at.kind[c]
+                        )
+                        if own:
+                            if found == len(out):
+                                out = grown(out)
+                            out[found, :8] = eight
+                            out[found, 8] = own - 1 if own > 0 else own
+                            found += 1
+    return found, out
+
+
+@compiled
+def _ends(rings: Rings, memory: Memory, s1_q: int, s2_q: int) -> int:
+    """Find the vertices t such that s1 t s2 q is a quadrilateral; return how many."""
+    eight, ends, found = memory.eight, memory.ends, 0
+    v, p, q, r, s1, s2 = eight[V], eight[P], eight[Q], eight[R], eight[S1], eight[S2]
+    if rings.hint[s1_q] & rings.hint[s2_q]:
+        for k in range(rings.start[s1_q], rings.start[s1_q + 1]):
+            t = rings.apex[k]
+            if t > v and meets(rings, s2_q, t) >= 0 and not _same(t, p, r, s2):
+                ends[found, 0], ends[found, 1] = t, 2
+                found += 1
+    k = meets(rings, s1_q, s2)
+    if k >= 0:
+        edge, before = rings.near[k], found
+        for m in range(rings.start[edge], rings.start[edge + 1]):
+            t = rings.apex[m]
+            if t > v and not _same(t, p, r, q):
+                known = 0
+                while known < before and ends[known, 0] != t:
+                    known += 1
+                if known < before:
+                    ends[known, 1] = BOTH
                 else:
-                    raw[n, 0], raw[n, 1], raw[n, 4], raw[n, 5] = iq, ip, eqs, eps
-                    raw[n, 3] = 9 - kind if kind > 3 else kind
-                n += 1
-    for a in range(f0, f1):
-        p = rings.heads[a]
-        if p < v:
-            continue
-        ip = a - f0
-        for k in range(rings.start[a], rings.start[a + 1]):
-            q = rings.apex[k]
-            if q < p:
-                continue
-            iq = local[q]
-            epq = edge_to(rings, p, q)
-            for m in range(rings.start[epq], rings.start[epq + 1]):
-                s = rings.apex[m]
-                if s <= v:
-                    continue
-                if on_ring(rings, a, s) >= 0 and on_ring(rings, f0 + iq, s) >= 0:
-                    continue
-                if n == len(raw):
-                    raw = grown(raw)
-                raw[n, 0], raw[n, 1], raw[n, 2], raw[n, 3] = ip, iq, s, 2
-                raw[n, 4], raw[n, 5] = edge_to(rings, p, s), edge_to(rings, q, s)
-                n += 1
-    return raw, n
+                    ends[found, 0], ends[found, 1] = t, 1
+                    found += 1
+    straight = 0
+    for i in range(found):
+        t = ends[i, 0]
+        if not bent(rings, s1, q, p, t) and not bent(rings, s2, r, q, t):
+            ends[straight, 0], ends[straight, 1] = t, ends[i, 1]
+            straight += 1
+    return straight
 
 
 @compiled
-def has(rings, t, x):
-    for i in range(4):
-        if rings.tetrahedra[t, i] == x:
-            return True
-    return False
+def _same(t: int, a: int, b: int, c: int) -> bool:
+    return t == a or t == b or t == c  # noqa: PLR1714 - compiled, and the types differ
 
 
 @compiled
-def grown(rows):
-    out = np.empty((2 * len(rows), rows.shape[1]), rows.dtype)
-    out[: len(rows)] = rows
-    return out
+def _closed(
+    rings: Rings, memory: Memory, end: int, s1_p: int, s2_r: int, s3_p: int, s3_r: int
+) -> bool:
+    """Are the last two facets quadrilaterals, and the last two corners not bent?"""
+    eight, kinds = memory.eight, memory.kinds
+    t, s3 = memory.ends[end, 0], eight[S3]
+    if t == s3:
+        return False
+    kinds[3] = _facet(rings, s1_p, s3_p, s3, t)
+    if not kinds[3]:
+        return False
+    kinds[5] = _facet(rings, s2_r, s3_r, s3, t)
+    if not kinds[5]:
+        return False
+    kinds[4], eight[T] = memory.ends[end, 1], t
+    return not (
+        bent(rings, s3, eight[P], eight[R], t) or bent(rings, t, eight[S1], s3, eight[S2])
+    )
 
 
 @compiled
-def facet(rings, eab, ead, ecd_unused, b, d, c, a):
-    return 0
+def _facet(rings: Rings, a: int, b: int, s: int, t: int) -> int:
+    """Return the kind of the facet p, s, t, s' for the edges a = s'p and b = sp; 0 if it is none.
+
+    The kind is 1 if pt has its triangles, plus 2 if ss' has.
+    """
+    kind = 1 if meets(rings, a, t) >= 0 and meets(rings, b, t) >= 0 else 0
+    k = meets(rings, a, s)
+    if k >= 0 and meets(rings, rings.near[k], t) >= 0:
+        kind += 2
+    return kind
 
 
 @compiled
-def search(rings, table, begin, end):
-    count = len(rings.first) - 1
-    local = np.full(count, -1, np.int32)
-    raw = np.empty((1024, 6), np.int32)
-    memory = walk(count)
-    boxes, edges = workspace()
-    points = np.empty((8, 3))
-    eight = np.empty(8, np.int32)
-    kinds = np.zeros(6, np.int32)
-    out = np.empty((1024, 9), np.int32)
-    found = 0
-    stat = np.zeros(16, np.int64)
-    most = 0
-    for e in range(len(rings.heads)):
-        most = max(most, rings.start[e + 1] - rings.start[e])
-    ts = np.empty(2 * most + 2, np.int32)
-    tk = np.empty(2 * most + 2, np.int32)
-    for v in range(begin, end):
-        f0, f1 = rings.first[v], rings.first[v + 1]
-        d = f1 - f0
-        for i in range(d):
-            local[rings.heads[f0 + i]] = i
-        raw, n = quads_at(rings, v, local, raw)
-        stat[0] += n
-        # entries sorted by (i, j): row: j, s, kind, near edge, far edge
-        beg = np.zeros(d + 1, np.int32)
-        for k in range(n):
-            beg[raw[k, 0] + 1] += 1
-            beg[raw[k, 1] + 1] += 1
-        for i in range(d):
-            beg[i + 1] += beg[i]
-        byj = np.empty((2 * n, 6), np.int32)
-        fill = beg.copy()
-        for k in range(n):  # first by j
-            j = raw[k, 1]
-            m = fill[j]
-            fill[j] += 1
-            byj[m, 0], byj[m, 1], byj[m, 2], byj[m, 3], byj[m, 4], byj[m, 5] = raw[k, 0], j, raw[k, 2], raw[k, 3], raw[k, 4], raw[k, 5]
-            j = raw[k, 0]
-            m = fill[j]
-            fill[j] += 1
-            kd = raw[k, 3]
-            byj[m, 0], byj[m, 1], byj[m, 2], byj[m, 3], byj[m, 4], byj[m, 5] = raw[k, 1], j, raw[k, 2], 9 - kd if kd > 3 else kd, raw[k, 5], raw[k, 4]
-        ent = np.empty((2 * n, 6), np.int32)
-        fill[:] = beg
-        for k in range(2 * n):
-            m = fill[byj[k, 0]]
-            fill[byj[k, 0]] += 1
-            ent[m] = byj[k]
-        # runs
-        nr = 0
-        rb = np.empty(2 * n + 1, np.int32)   # start of run
-        rfirst = np.empty(d + 1, np.int32)
-        for i in range(d):
-            rfirst[i] = nr
-            for k in range(beg[i], beg[i + 1]):
-                if k == beg[i] or ent[k, 1] != ent[k - 1, 1]:
-                    rb[nr] = k
-                    nr += 1
-        rfirst[d] = nr
-        rb[nr] = 2 * n
-        mark = np.full(d, -1, np.int32)
-        for qi in range(d):
-            q = rings.heads[f0 + qi]
-            for ra in range(rfirst[qi], rfirst[qi + 1]):
-                pi = ent[rb[ra], 1]
-                if pi < qi:
-                    continue
-                p = rings.heads[f0 + pi]
-                for rc in range(rfirst[pi], rfirst[pi + 1]):
-                    mark[ent[rb[rc], 1]] = rc
-                for rr in range(rfirst[qi], rfirst[qi + 1]):
-                    ri = ent[rb[rr], 1]
-                    if ri < qi or ri == pi or mark[ri] < 0:
-                        continue
-                    r = rings.heads[f0 + ri]
-                    stat[1] += 1
-                    if bent(rings, v, p, q, r):
-                        continue
-                    stat[2] += 1
-                    rc = mark[ri]
-                    for A in range(rb[ra], rb[ra + 1]):
-                        s1 = ent[A, 2]
-                        if s1 == r:
-                            continue
-                        for B in range(rb[rr], rb[rr + 1]):
-                            s2 = ent[B, 2]
-                            if s2 == p or s2 == s1:
-                                continue
-                            stat[3] += 1
-                            if bent(rings, q, v, s1, s2):
-                                continue
-                            stat[4] += 1
-                            eq1, eq2 = ent[A, 4], ent[B, 4]
-                            nt = 0
-                            for k in range(rings.start[eq1], rings.start[eq1 + 1]):
-                                t = rings.apex[k]
-                                if t > v and t != p and t != r and t != s2:
-                                    if on_ring(rings, eq2, t) >= 0:
-                                        ts[nt] = t
-                                        tk[nt] = 2
-                                        nt += 1
-                            if on_ring(rings, eq1, s2) >= 0:
-                                e12 = edge_to(rings, s1, s2)
-                                n0 = nt
-                                for k in range(rings.start[e12], rings.start[e12 + 1]):
-                                    t = rings.apex[k]
-                                    if t > v and t != p and t != r and t != q:
-                                        dup = False
-                                        for m in range(n0):
-                                            if ts[m] == t:
-                                                tk[m] = 3
-                                                dup = True
-                                        if not dup:
-                                            ts[nt] = t
-                                            tk[nt] = 1
-                                            nt += 1
-                            stat[5] += nt > 0
-                            stat[6] += nt
-                            n1 = 0
-                            for m in range(nt):
-                                t = ts[m]
-                                if bent(rings, s1, q, p, t) or bent(rings, s2, r, q, t):
-                                    continue
-                                ts[n1] = t
-                                tk[n1] = tk[m]
-                                n1 += 1
-                            stat[7] += n1
-                            if n1 == 0:
-                                continue
-                            ep1, er2 = ent[A, 5], ent[B, 5]
-                            for C in range(rb[rc], rb[rc + 1]):
-                                s3 = ent[C, 2]
-                                if s3 == q or s3 == s1 or s3 == s2:
-                                    continue
-                                stat[8] += 1
-                                if bent(rings, p, v, s3, s1) or bent(rings, r, v, s2, s3):
-                                    continue
-                                stat[9] += 1
-                                ep3, er3 = ent[C, 4], ent[C, 5]
-                                p13 = on_ring(rings, ep1, s3) >= 0
-                                r23 = on_ring(rings, er2, s3) >= 0
-                                for m in range(n1):
-                                    t = ts[m]
-                                    if t == s3:
-                                        continue
-                                    stat[10] += 1
-                                    k3 = 0
-                                    if on_ring(rings, ep1, t) >= 0 and on_ring(rings, ep3, t) >= 0:
-                                        k3 = 1
-                                    if p13 and on_ring(rings, edge_to(rings, s1, s3), t) >= 0:
-                                        k3 |= 2
-                                    if k3 == 0:
-                                        continue
-                                    k5 = 0
-                                    if on_ring(rings, er2, t) >= 0 and on_ring(rings, er3, t) >= 0:
-                                        k5 = 1
-                                    if r23 and on_ring(rings, edge_to(rings, s2, s3), t) >= 0:
-                                        k5 |= 2
-                                    if k5 == 0:
-                                        continue
-                                    stat[11] += 1
-                                    if bent(rings, s3, p, r, t) or bent(rings, t, s1, s3, s2):
-                                        continue
-                                    stat[12] += 1
-                                    eight[0], eight[1], eight[2], eight[3] = v, p, s1, q
-                                    eight[4], eight[5], eight[6], eight[7] = r, s3, t, s2
-                                    # kinds: A at q with j=p is oriented (v,q,s1,p)->reverse for (v,p,s1,q)
-                                    kA, kB, kC = ent[A, 3], ent[B, 3], ent[C, 3]
-                                    kinds[0], kinds[2], kinds[1] = min(kA, 3), min(kB, 3), min(kC, 3)
-                                    kinds[3], kinds[4], kinds[5] = k3, tk[m], k5
-                                    for i in range(8):
-                                        for ax in range(3):
-                                            points[i, ax] = rings.points[eight[i], ax]
-                                    sign = filtered_jacobian(points, boxes, edges)
-                                    if sign == -1:
-                                        continue
-                                    stat[13] += 1
-                                    # start
-                                    kd = 9 - kA if kA > 3 else kA
-                                    own = -1
-                                    evp = f0 + pi
-                                    if kd == 1 or kd == 3 or kd == 5:
-                                        own = region(rings, table, memory, eight, kinds, rings.inner[on_ring(rings, evp, s1)])
-                                    if own < 0 and (kd == 2 or kd == 3 or kd == 4):
-                                        own = region(rings, table, memory, eight, kinds, rings.inner[on_ring(rings, evp, q)])
-                                    if own < 0:
-                                        continue
-                                    stat[14] += 1
-                                    if found == len(out):
-                                        out = grown(out)
-                                    out[found, :8] = eight
-                                    out[found, 8] = own if sign == 1 else -1 - own
-                                    found += 1
-                for rc in range(rfirst[pi], rfirst[pi + 1]):
-                    mark[ent[rb[rc], 1]] = -1
-        for i in range(d):
-            local[rings.heads[f0 + i]] = -1
-    return out[:found], stat
+def _decided(
+    rings: Rings, table: Table, memory: Memory, s1_q: int, a: int, b: int, c: int
+) -> int:
+    """Return what the hexahedron is: i + 1 or -1 - i as in :func:`search`, or 0 if it is not valid.
+
+    s1_q: the edge; a, b, c: the kinds of the facets at v as they are seen from q, from q and from p.
+    """
+    eight, kinds = memory.eight, memory.kinds
+    for i in range(8):
+        for axis in range(3):
+            memory.points[i, axis] = rings.points[eight[i], axis]
+    sign = filtered_jacobian(memory.points, memory.boxes, memory.edges)
+    if sign < 0:
+        return 0
+    kinds[0], kinds[1], kinds[2] = min(a, BOTH), min(c, BOTH), min(b, BOTH)
+    kind, own = turned(a), -1
+    if kind != 2 and kind != 4:  # the region may have the diagonal v s1, hence v s1 q
+        begin = rings.inner[meets(rings, s1_q, eight[V])]
+        own = region(rings, table, memory.walk, eight, kinds, begin)
+    if own < 0 and kind != 1 and kind != 5:  # it may have p q, hence p s1 q
+        begin = rings.inner[meets(rings, s1_q, eight[P])]
+        own = region(rings, table, memory.walk, eight, kinds, begin)
+    if own < 0:
+        return 0
+    return -1 - own if sign == UNKNOWN else own + 1
