@@ -25,14 +25,14 @@ roads lead to the answer; each decides, or hands on:
 
 from fractions import Fraction
 from itertools import product
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from certify.kernel.hexahedron import CORNERS
 from certify.kernel.jacobian import Coefficients, bernstein_coefficients, halves
-from certify.mesh.compiled import compiled
+from certify.mesh.compiled import borrowing, compiled
 from certify.mesh.signs import UNKNOWN, Floats, Numbers, Signs, numbers, safe
 
 HALVINGS = 30
@@ -115,33 +115,43 @@ def _positive_on(a: int, b: int, c: int) -> bool:
 
 @compiled
 def _filter(points: Floats, out: Signs) -> None:
-    boxes, edges = workspace()
+    scratch = workspace()
     for h in range(len(points)):
-        out[h] = filtered_jacobian(points[h], boxes, edges)
+        out[h] = filtered_jacobian(points[h], scratch)
+
+
+class Workspace(NamedTuple):
+    """What :func:`filtered_jacobian` writes on: a stack of boxes, how often each was halved, and
+    the edges in each direction, as vectors."""
+
+    boxes: Floats
+    depths: NDArray[np.int64]
+    edges: Floats
 
 
 @compiled
-def workspace() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the scratch arrays that :func:`filtered_jacobian` wants."""
-    return np.empty((HALVINGS + 2, 27)), np.empty((3, 4, 3))
+def workspace() -> Workspace:
+    """Return something to write on."""
+    depths = np.zeros(HALVINGS + 2, np.int64)
+    return Workspace(np.empty((HALVINGS + 2, 27)), depths, np.empty((3, 4, 3)))
 
 
-@compiled
-def filtered_jacobian(points: Floats, boxes: NDArray[np.float64], edges: Floats) -> int:
+@borrowing
+def filtered_jacobian(points: Floats, scratch: Workspace) -> int:
     """Return 1, -1 or UNKNOWN for eight points."""
     if not safe(points):
         return UNKNOWN
-    size = _coefficients(points, boxes[0], edges)
-    found = _subdivided(boxes, _ROUNDING * size, HALVINGS)
+    size = _coefficients(points, scratch.boxes[0], scratch.edges)
+    found = _subdivided(scratch, _ROUNDING * size, HALVINGS)
     if found == UNKNOWN:
         halvings = _halvings_without_error(points, size)
         if halvings >= 0:
-            _coefficients(points, boxes[0], edges)
-            found = _subdivided(boxes, 0.0, halvings)
+            _coefficients(points, scratch.boxes[0], scratch.edges)
+            found = _subdivided(scratch, 0.0, halvings)
     return found
 
 
-@compiled
+@borrowing
 def _coefficients(points: Floats, box: Box, edges: Floats) -> float:
     """Put the 27 Bernstein coefficients into ``box`` and return F."""
     for a in range(2):
@@ -176,13 +186,14 @@ def _coefficients(points: Floats, box: Box, edges: Floats) -> float:
     return size
 
 
-@compiled
-def _subdivided(boxes: NDArray[np.float64], error: float, halvings: int) -> int:
+@borrowing
+def _subdivided(scratch: Workspace, error: float, halvings: int) -> int:
     """Return the answer for the first box, whose coefficients have at most this error.
 
-    The boxes that wait are a stack; how often one was halved is on another.
+    The boxes that wait are a stack.
     """
-    depths = np.zeros(len(boxes), np.int64)
+    boxes, depths = scratch.boxes, scratch.depths
+    depths[0] = 0
     top, looked = 1, 0
     while top:
         top, looked = top - 1, looked + 1
@@ -206,7 +217,7 @@ def _subdivided(boxes: NDArray[np.float64], error: float, halvings: int) -> int:
     return 1
 
 
-@compiled
+@borrowing
 def _halve(box: Box, other: Box, axis: int) -> None:
     """Replace the coefficients of a box by those of its lower half, and give the upper's."""
     step = (9, 3, 1)[axis]
@@ -219,7 +230,7 @@ def _halve(box: Box, other: Box, axis: int) -> None:
         other[start], other[start + step], other[start + 2 * step] = middle, bc, c
 
 
-@compiled
+@borrowing
 def _halvings_without_error(points: Floats, size: float) -> int:
     """Return how many halvings are exact, for safe points; -1 if the coefficients are not."""
     most, bits = 0.0, 0

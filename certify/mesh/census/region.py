@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 
 from certify.kernel.hexahedron import FACETS, Simplex, simplex
 from certify.mesh.census.rings import Ints, Rings
-from certify.mesh.compiled import compiled
+from certify.mesh.compiled import borrowing, compiled
 from certify.mesh.instances import QUADRUPLE_INDEX, instances
 
 SLOTS = 1 << 15
@@ -89,7 +89,7 @@ def _fill(keys: NDArray[np.uint64], slots: Ints) -> None:
         slots[slot] = own
 
 
-@compiled
+@borrowing
 def _slot(low: int, high: int) -> int:
     mixed = low * np.uint64(0x9E3779B97F4A7C15) + high * np.uint64(0xC2B2AE3D27D4EB4F)
     mixed ^= mixed >> np.uint64(32)
@@ -97,7 +97,7 @@ def _slot(low: int, high: int) -> int:
     return np.int64(mixed >> np.uint64(49))  # type: ignore[no-any-return]
 
 
-@compiled
+@borrowing
 def looked_up(table: Table, low: int, high: int) -> int:
     """Return the labelled triangulation with exactly these tetrahedra, or -1."""
     slot = _slot(low, high)
@@ -136,7 +136,7 @@ def walk(count: int) -> Walk:
     )
 
 
-@compiled
+@borrowing
 def region(
     rings: Rings, table: Table, memory: Walk, eight: Ints, kinds: Ints, begin: int
 ) -> int:
@@ -166,7 +166,7 @@ def region(
     return looked_up(table, low, high)
 
 
-@compiled
+@borrowing
 def _walked(rings: Rings, table: Table, memory: Walk, begin: int) -> tuple[int, int, int]:
     """Return the tetrahedra of the region as bits, 0 if it leaves the eight vertices, and how many
     sets are to be forgotten."""

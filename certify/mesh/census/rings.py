@@ -10,7 +10,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from certify.mesh.compiled import compiled
+from certify.mesh.compiled import borrowing, compiled
 from certify.mesh.signs import Floats
 
 Ints: TypeAlias = NDArray[np.int32]
@@ -59,7 +59,7 @@ def rings(points: Floats, tetrahedra: Ints) -> Rings:
     )  # fmt: skip
 
 
-@compiled
+@borrowing
 def meets(rings: Rings, edge: int, vertex: int) -> int:
     """Return the entry of a vertex in the ring of an edge, or -1."""
     if rings.hint[edge] >> np.uint64(vertex & 63) & np.uint64(1):

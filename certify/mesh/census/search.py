@@ -19,8 +19,8 @@ from numpy.typing import NDArray
 from certify.mesh.census.region import Table, Walk, region, walk
 from certify.mesh.census.rings import Ints, Rings, meets
 from certify.mesh.census.star import BOTH, Star, grown, star, turned
-from certify.mesh.compiled import compiled
-from certify.mesh.jacobian import filtered_jacobian, workspace
+from certify.mesh.compiled import borrowing, compiled
+from certify.mesh.jacobian import Workspace, filtered_jacobian, workspace
 from certify.mesh.signs import UNKNOWN
 
 V, P, S1, Q, R, S3, T, S2 = range(8)
@@ -31,7 +31,7 @@ class Memory(NamedTuple):
 
     eight: the hexahedron; kinds: of its facets; runs: of quadrilaterals, those of p and q as seen
     from q, of q and r as seen from q, and of r and p as seen from p; ends: the candidates for t,
-    each with the kind of the facet at q; walk, boxes, edges, points: for what is called.
+    each with the kind of the facet at q; walk, jacobian, points: for what is called.
     """
 
     eight: Ints
@@ -39,8 +39,7 @@ class Memory(NamedTuple):
     runs: Ints
     ends: Ints
     walk: Walk
-    boxes: NDArray[np.float64]
-    edges: NDArray[np.float64]
+    jacobian: Workspace
     points: NDArray[np.float64]
 
 
@@ -49,15 +48,13 @@ def _memory(rings: Rings) -> Memory:
     longest = 0
     for e in range(len(rings.heads)):
         longest = max(longest, rings.start[e + 1] - rings.start[e])
-    boxes, edges = workspace()
     return Memory(
         np.empty(8, np.int32),
         np.empty(6, np.int32),
         np.empty(3, np.int32),
         np.empty((2 * longest + 1, 2), np.int32),
         walk(len(rings.points)),
-        boxes,
-        edges,
+        workspace(),
         np.empty((8, 3)),
     )
 
@@ -77,11 +74,15 @@ def search(rings: Rings, table: Table, begin: int, end: int) -> Ints:
         if quadrilaterals.count > len(mark):
             mark = np.full(2 * quadrilaterals.count, -1, np.int32)
         memory.eight[V] = v
-        found, out = _joined(rings, table, memory, quadrilaterals, mark, found, out)
+        after = _joined(rings, table, memory, quadrilaterals, mark, found, out)
+        while after > len(out):
+            out = grown(out)
+            after = _joined(rings, table, memory, quadrilaterals, mark, found, out)
+        found = after
     return out[:found]
 
 
-@compiled
+@borrowing
 def bent(rings: Rings, x: int, a: int, b: int, c: int) -> bool:
     """Is det(a-x, b-x, c-x) certainly not positive?"""
     points = rings.points
@@ -93,10 +94,10 @@ def bent(rings: Rings, x: int, a: int, b: int, c: int) -> bool:
     return value <= -rings.rounding[x]
 
 
-@compiled
+@borrowing
 def _joined(
     rings: Rings, table: Table, memory: Memory, at: Star, mark: Ints, found: int, out: Ints
-) -> tuple[int, Ints]:
+) -> int:
     """Add the hexahedra from v. Of the three neighbours, q has the least number.
 
     mark: a scratch number for each neighbour; it is -1 except as said here.
@@ -118,16 +119,16 @@ def _joined(
                     eight[R] = rings.heads[first + r]
                     if not bent(rings, v, eight[P], eight[Q], eight[R]):
                         runs[0], runs[1], runs[2] = a, b, mark[r]
-                        found, out = _around(rings, table, memory, at, found, out)
+                        found = _around(rings, table, memory, at, found, out)
             for c in range(at.begin[p], at.begin[p + 1]):
                 mark[at.q[c]] = -1
-    return found, out
+    return found
 
 
-@compiled
+@borrowing
 def _around(
     rings: Rings, table: Table, memory: Memory, at: Star, found: int, out: Ints
-) -> tuple[int, Ints]:
+) -> int:
     """Add the hexahedra with known v, p, q, r: choose s1 and s2, then s3, then t."""
     eight, (run_a, run_b, run_c) = memory.eight, memory.runs
     v, p, q, r = eight[V], eight[P], eight[Q], eight[R]
@@ -155,15 +156,15 @@ def _around(
                             rings, table, memory, at.to_p[a], at.kind[a], at.kind[b], at.kind[c]
                         )
                         if own:
-                            if found == len(out):
-                                out = grown(out)
-                            out[found, :8] = eight
-                            out[found, 8] = own - 1 if own > 0 else own
+                            if found < len(out):
+                                for k in range(8):
+                                    out[found, k] = eight[k]
+                                out[found, 8] = own - 1 if own > 0 else own
                             found += 1
-    return found, out
+    return found
 
 
-@compiled
+@borrowing
 def _ends(rings: Rings, memory: Memory, s1_q: int, s2_q: int) -> int:
     """Find the vertices t such that s1 t s2 q is a quadrilateral; return how many."""
     eight, ends, found = memory.eight, memory.ends, 0
@@ -197,12 +198,12 @@ def _ends(rings: Rings, memory: Memory, s1_q: int, s2_q: int) -> int:
     return straight
 
 
-@compiled
+@borrowing
 def _same(t: int, a: int, b: int, c: int) -> bool:
     return t == a or t == b or t == c  # noqa: PLR1714 - compiled, and the types differ
 
 
-@compiled
+@borrowing
 def _closed(
     rings: Rings, memory: Memory, end: int, s1_p: int, s2_r: int, s3_p: int, s3_r: int
 ) -> bool:
@@ -223,7 +224,7 @@ def _closed(
     )
 
 
-@compiled
+@borrowing
 def _facet(rings: Rings, a: int, b: int, s: int, t: int) -> int:
     """Return the kind of the facet p, s, t, s' for the edges a = s'p and b = sp; 0 if it is none.
 
@@ -236,7 +237,7 @@ def _facet(rings: Rings, a: int, b: int, s: int, t: int) -> int:
     return kind
 
 
-@compiled
+@borrowing
 def _decided(
     rings: Rings, table: Table, memory: Memory, s1_q: int, a: int, b: int, c: int
 ) -> int:
@@ -248,7 +249,7 @@ def _decided(
     for i in range(8):
         for axis in range(3):
             memory.points[i, axis] = rings.points[eight[i], axis]
-    sign = filtered_jacobian(memory.points, memory.boxes, memory.edges)
+    sign = filtered_jacobian(memory.points, memory.jacobian)
     if sign < 0:
         return 0
     kinds[0], kinds[1], kinds[2] = min(a, BOTH), min(c, BOTH), min(b, BOTH)

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from certify.mesh.census.rings import Ints, Rings, meets
-from certify.mesh.compiled import compiled
+from certify.mesh.compiled import borrowing, compiled
 
 BOTH = 3
 """Kinds of quadrilaterals: 1 has the diagonal vs, 2 has pq, 3 has both; 4 has both and vpsq is a
@@ -47,8 +47,10 @@ def star(rings: Rings, v: int, number: Ints, rows: Ints) -> tuple[Star, Ints]:
     begin, end = rings.first[v], rings.first[v + 1]
     for e in range(begin, end):
         number[rings.heads[e]] = e - begin
-    found, rows = _with_the_diagonal_at(rings, v, number, rows)
-    found, rows = _with_the_diagonal_across(rings, v, number, rows, found)
+    found = _listed(rings, v, number, rows)
+    while found > len(rows):
+        rows = grown(rows)
+        found = _listed(rings, v, number, rows)
     return _sorted(rows, found, end - begin), rows
 
 
@@ -60,10 +62,15 @@ def grown(rows: Ints) -> Ints:
     return out
 
 
-@compiled
-def _with_the_diagonal_at(
-    rings: Rings, v: int, number: Ints, rows: Ints
-) -> tuple[int, Ints]:
+@borrowing
+def _listed(rings: Rings, v: int, number: Ints, rows: Ints) -> int:
+    """Put the quadrilaterals into rows, as far as there are some, and return how many they are."""
+    found = _with_the_diagonal_at(rings, v, number, rows)
+    return _with_the_diagonal_across(rings, v, number, rows, found)
+
+
+@borrowing
+def _with_the_diagonal_at(rings: Rings, v: int, number: Ints, rows: Ints) -> int:
     """Put the quadrilaterals with the diagonal vs into rows: p, q, s, kind, edges sp and sq."""
     found = 0
     for e in range(rings.first[v], rings.first[v + 1]):
@@ -78,19 +85,18 @@ def _with_the_diagonal_at(
                 q = rings.apex[m]
                 if q < v:
                     continue
-                if found == len(rows):
-                    rows = grown(rows)
                 kind = 1
                 if meets(rings, rings.far[k], q) >= 0 and meets(rings, rings.near[k], q) >= 0:
                     kind = _kind(rings, k, m)
-                row = rows[found]
-                row[0], row[1], row[2] = number[p], number[q], s
-                row[3], row[4], row[5] = kind, rings.far[k], rings.far[m]
+                if found < len(rows):
+                    row = rows[found]
+                    row[0], row[1], row[2] = number[p], number[q], s
+                    row[3], row[4], row[5] = kind, rings.far[k], rings.far[m]
                 found += 1
-    return found, rows
+    return found
 
 
-@compiled
+@borrowing
 def _kind(rings: Rings, k: int, m: int) -> int:
     """Return the kind of vpsq, which has both diagonals, by the entries of p and q on vs's ring."""
     q, p = rings.apex[m], rings.apex[k]
@@ -101,7 +107,7 @@ def _kind(rings: Rings, k: int, m: int) -> int:
     return BOTH
 
 
-@compiled
+@borrowing
 def _has(rings: Rings, tetrahedron: int, vertex: int) -> bool:
     for i in range(4):
         if rings.tetrahedra[tetrahedron, i] == vertex:
@@ -109,10 +115,10 @@ def _has(rings: Rings, tetrahedron: int, vertex: int) -> bool:
     return False
 
 
-@compiled
+@borrowing
 def _with_the_diagonal_across(
     rings: Rings, v: int, number: Ints, rows: Ints, found: int
-) -> tuple[int, Ints]:
+) -> int:
     """Add the quadrilaterals that have only the diagonal pq."""
     for e in range(rings.first[v], rings.first[v + 1]):
         p = rings.heads[e]
@@ -126,16 +132,15 @@ def _with_the_diagonal_across(
                 s = rings.apex[m]
                 if s <= v or (meets(rings, e, s) >= 0 and meets(rings, rings.near[k], s) >= 0):
                     continue
-                if found == len(rows):
-                    rows = grown(rows)
-                row = rows[found]
-                row[0], row[1], row[2], row[3] = number[p], number[q], s, 2
-                row[4], row[5] = rings.reverse[rings.near[m]], rings.reverse[rings.far[m]]
+                if found < len(rows):
+                    row = rows[found]
+                    row[0], row[1], row[2], row[3] = number[p], number[q], s, 2
+                    row[4], row[5] = rings.reverse[rings.near[m]], rings.reverse[rings.far[m]]
                 found += 1
-    return found, rows
+    return found
 
 
-@compiled
+@borrowing
 def turned(kind: int) -> int:
     """Return the kind of vqsp, if that of vpsq is given."""
     return 9 - kind if kind > BOTH else kind
