@@ -23,4 +23,5 @@ def borrowing(function: F) -> F:
     the time. Numba refuses to compile a function so that makes arrays all the same.
     """
     options = {"cache": True, "fastmath": False, "error_model": "numpy", "_nrt": False}
+    options["forceinline"] = True
     return cast("F", numba.njit(**options)(function))
