@@ -69,6 +69,23 @@ def meets(rings: Rings, edge: int, vertex: int) -> int:
     return -1
 
 
+@borrowing
+def corner(rings: Rings, x: int, a: int, b: int, c: int) -> float:
+    """Return det(a-x, b-x, c-x) for edges xa, xb, xc, with an error below rounding[x]."""
+    points = rings.points
+    x0, x1, x2 = points[x, 0], points[x, 1], points[x, 2]
+    a0, a1, a2 = points[a, 0] - x0, points[a, 1] - x1, points[a, 2] - x2
+    b0, b1, b2 = points[b, 0] - x0, points[b, 1] - x1, points[b, 2] - x2
+    c0, c1, c2 = points[c, 0] - x0, points[c, 1] - x1, points[c, 2] - x2
+    return a0 * (b1 * c2 - b2 * c1) + a1 * (b2 * c0 - b0 * c2) + a2 * (b0 * c1 - b1 * c0)
+
+
+@borrowing
+def bent(rings: Rings, x: int, a: int, b: int, c: int) -> bool:
+    """Is det(a-x, b-x, c-x) certainly not positive?"""
+    return corner(rings, x, a, b, c) <= -rings.rounding[x]
+
+
 _NEXT = np.array([[1, 2, 3], [0, 3, 2], [3, 0, 1], [2, 1, 0]], np.int64)
 """For each place in a tetrahedron the three others, in the order that keeps the determinant."""
 

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from certify.mesh.census.region import Table, Walk, region, walk
-from certify.mesh.census.rings import Ints, Rings, meets
+from certify.mesh.census.rings import Ints, Rings, bent, meets
 from certify.mesh.census.star import BOTH, Star, grown, star, turned
 from certify.mesh.compiled import borrowing, compiled
 from certify.mesh.jacobian import Workspace, filtered_jacobian, workspace
@@ -83,18 +83,6 @@ def search(rings: Rings, table: Table, begin: int, end: int) -> Ints:
 
 
 @borrowing
-def bent(rings: Rings, x: int, a: int, b: int, c: int) -> bool:
-    """Is det(a-x, b-x, c-x) certainly not positive?"""
-    points = rings.points
-    x0, x1, x2 = points[x, 0], points[x, 1], points[x, 2]
-    a0, a1, a2 = points[a, 0] - x0, points[a, 1] - x1, points[a, 2] - x2
-    b0, b1, b2 = points[b, 0] - x0, points[b, 1] - x1, points[b, 2] - x2
-    c0, c1, c2 = points[c, 0] - x0, points[c, 1] - x1, points[c, 2] - x2
-    value = a0 * (b1 * c2 - b2 * c1) + a1 * (b2 * c0 - b0 * c2) + a2 * (b0 * c1 - b1 * c0)
-    return value <= -rings.rounding[x]
-
-
-@borrowing
 def _joined(
     rings: Rings, table: Table, memory: Memory, at: Star, mark: Ints, found: int, out: Ints
 ) -> int:
@@ -142,7 +130,7 @@ def _around(
             if s2 in (p, s1) or bent(rings, q, v, s1, s2):
                 continue
             eight[S2] = s2
-            ends = _ends(rings, memory, at.to_p[a], at.to_p[b])
+            ends = _ends(rings, memory, at, a, b)
             if not ends:
                 continue
             for c in range(at.start[run_c], at.start[run_c + 1]):
@@ -165,37 +153,41 @@ def _around(
 
 
 @borrowing
-def _ends(rings: Rings, memory: Memory, s1_q: int, s2_q: int) -> int:
-    """Find the vertices t such that s1 t s2 q is a quadrilateral; return how many."""
-    eight, ends, found = memory.eight, memory.ends, 0
+def _ends(rings: Rings, memory: Memory, at: Star, a: int, b: int) -> int:
+    """Find the vertices t such that s1 t s2 q is a quadrilateral; return how many.
+
+    Those at which the corner s1 or s2 is bent are left out. a, b: the quadrilaterals with q, p and
+    with q, r.
+    """
+    ends, found = memory.ends, 0
+    if at.ahead[a] & at.aback[b]:
+        for i in range(at.tips[a], at.tips[a + 1]):
+            if at.side[i] & 1:
+                for k in range(at.tips[b], at.tips[b + 1]):
+                    if at.tip[k] == at.tip[i] and at.side[k] & 2:
+                        ends[found, 0], ends[found, 1] = at.tip[i], 2
+                        found += 1
+    across = meets(rings, at.to_p[a], at.s[b])
+    return found if across < 0 else _ends_across(rings, memory, rings.near[across], found)
+
+
+@borrowing
+def _ends_across(rings: Rings, memory: Memory, edge: int, before: int) -> int:
+    """Add those of which s1 s2 has the triangles, and return how many there are then."""
+    eight, ends, found = memory.eight, memory.ends, before
     v, p, q, r, s1, s2 = eight[V], eight[P], eight[Q], eight[R], eight[S1], eight[S2]
-    if rings.hint[s1_q] & rings.hint[s2_q]:
-        for k in range(rings.start[s1_q], rings.start[s1_q + 1]):
-            t = rings.apex[k]
-            if t > v and meets(rings, s2_q, t) >= 0 and not _same(t, p, r, s2):
-                ends[found, 0], ends[found, 1] = t, 2
+    for k in range(rings.start[edge], rings.start[edge + 1]):
+        t = rings.apex[k]
+        if t > v and not _same(t, p, q, r):
+            known = 0
+            while known < before and ends[known, 0] != t:
+                known += 1
+            if known < before:
+                ends[known, 1] = BOTH
+            elif not bent(rings, s1, q, p, t) and not bent(rings, s2, r, q, t):
+                ends[found, 0], ends[found, 1] = t, 1
                 found += 1
-    k = meets(rings, s1_q, s2)
-    if k >= 0:
-        edge, before = rings.near[k], found
-        for m in range(rings.start[edge], rings.start[edge + 1]):
-            t = rings.apex[m]
-            if t > v and not _same(t, p, r, q):
-                known = 0
-                while known < before and ends[known, 0] != t:
-                    known += 1
-                if known < before:
-                    ends[known, 1] = BOTH
-                else:
-                    ends[found, 0], ends[found, 1] = t, 1
-                    found += 1
-    straight = 0
-    for i in range(found):
-        t = ends[i, 0]
-        if not bent(rings, s1, q, p, t) and not bent(rings, s2, r, q, t):
-            ends[straight, 0], ends[straight, 1] = t, ends[i, 1]
-            straight += 1
-    return straight
+    return found
 
 
 @borrowing

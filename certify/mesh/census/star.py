@@ -8,9 +8,8 @@ greater than v: it is the least of its hexahedron.
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from certify.mesh.census.rings import Ints, Rings, meets
+from certify.mesh.census.rings import Ints, Rings, Words, corner, meets
 from certify.mesh.compiled import borrowing, compiled
 
 BOTH = 3
@@ -25,7 +24,10 @@ class Star(NamedTuple):
     count: how many neighbours; begin: where the runs of each p begin, and the end; q: of each run;
     start: where its quadrilaterals begin, and the end; s, kind: of each quadrilateral, the kind as
     it is seen from p; to_p, to_q: the edges from s.
-    Those of p's run of q are in the same order as those of q's run of p.
+    Towards the far corner, if p < q: tips, where the vertices of the ring of sp begin at which the
+    corner s might have a positive determinant, and the end; tip, those; side, 1 if the order of
+    the corner's edges must be sp, sq, to the tip, 2 if it must be sq, sp, to the tip, 3 if both are
+    possible; ahead and aback: the hints, see Rings, of those of either order.
     """
 
     count: int
@@ -36,6 +38,11 @@ class Star(NamedTuple):
     kind: Ints
     to_p: Ints
     to_q: Ints
+    tips: Ints
+    tip: Ints
+    side: Ints
+    ahead: Words
+    aback: Words
 
 
 @compiled
@@ -44,14 +51,20 @@ def star(rings: Rings, v: int, number: Ints, rows: Ints) -> tuple[Star, Ints]:
 
     number: for each vertex of the mesh a scratch number; rows: of six.
     """
-    begin, end = rings.first[v], rings.first[v + 1]
-    for e in range(begin, end):
-        number[rings.heads[e]] = e - begin
+    first, end = rings.first[v], rings.first[v + 1]
+    for e in range(first, end):
+        number[rings.heads[e]] = e - first
     found = _listed(rings, v, number, rows)
     while found > len(rows):
         rows = grown(rows)
         found = _listed(rings, v, number, rows)
-    return _sorted(rows, found, end - begin), rows
+    begin, q, start, columns = _sorted(rows, found, end - first)
+    tips, tip, side, hints = _tips(rings, v, begin, start, q, columns)
+    s, kind, to_p, to_q = columns
+    quadrilaterals = Star(
+        len(begin) - 1, begin, q, start, s, kind, to_p, to_q, tips, tip, side, hints[0], hints[1]
+    )
+    return quadrilaterals, rows
 
 
 @compiled
@@ -147,8 +160,11 @@ def turned(kind: int) -> int:
 
 
 @compiled
-def _sorted(rows: Ints, found: int, count: int) -> Star:
-    """Return the quadrilaterals, each twice, by two passes that keep the order of equal ones."""
+def _sorted(rows: Ints, found: int, count: int) -> tuple[Ints, Ints, Ints, Ints]:
+    """Return the quadrilaterals, each twice, by two passes that keep the order of equal ones.
+
+    These are the runs, begin, q and start, and the columns s, kind, to_p and to_q.
+    """
     begin = np.zeros(count + 1, np.int32)
     for i in range(found):
         begin[rows[i, 0] + 1] += 1
@@ -161,24 +177,63 @@ def _sorted(rows: Ints, found: int, count: int) -> Star:
             q = rows[i, 1 - side]
             by_q[place[q]] = 2 * i + side
             place[q] += 1
-    columns = np.empty((5, 2 * found), np.int32)
-    q, s, kind, to_p, to_q = columns
+    other, columns = np.empty(2 * found, np.int32), np.empty((4, 2 * found), np.int32)
     place[:] = begin
     for own in by_q:
         row, side = rows[own >> 1], own & 1
         k = place[row[side]]
         place[row[side]] += 1
-        q[k], s[k], kind[k] = row[1 - side], row[2], turned(row[3]) if side else row[3]
-        to_p[k], to_q[k] = row[4 + side], row[5 - side]
+        other[k], columns[0, k] = row[1 - side], row[2]
+        columns[1, k] = turned(row[3]) if side else row[3]
+        columns[2, k], columns[3, k] = row[4 + side], row[5 - side]
     runs, start = 0, np.empty(2 * found + 1, np.int32)
     for p in range(count):
         low, high = begin[p], begin[p + 1]
         begin[p] = runs
         for k in range(low, high):
-            if k == low or q[k] != q[k - 1]:
-                start[runs] = k
+            if k == low or other[k] != other[k - 1]:
+                start[runs], other[runs] = k, other[k]
                 runs += 1
     begin[count], start[runs] = runs, 2 * found
-    for run in range(runs):
-        q[run] = q[start[run]]
-    return Star(count, begin, q, start, s, kind, to_p, to_q)
+    return begin, other, start, columns
+
+
+@compiled
+def _tips(
+    rings: Rings, v: int, begin: Ints, start: Ints, q: Ints, columns: Ints
+) -> tuple[Ints, Ints, Ints, Words]:
+    """Return the tips of the quadrilaterals, and the two hints of each."""
+    total, found = 0, 0
+    for k in range(columns.shape[1]):
+        total += rings.start[columns[2, k] + 1] - rings.start[columns[2, k]]
+    tips, tip = np.zeros(columns.shape[1] + 1, np.int32), np.empty(total, np.int32)
+    side, hints = np.empty(total, np.int32), np.zeros((2, columns.shape[1]), np.uint64)
+    for p in range(len(begin) - 1):
+        for run in range(begin[p], begin[p + 1]):
+            ends = rings.heads[rings.first[v] + p], rings.heads[rings.first[v] + q[run]]
+            for k in range(start[run], start[run + 1]):
+                tips[k] = found
+                if p < q[run]:
+                    found = _tips_of(rings, v, columns[0, k], ends, columns[2, k], tip, side, found)
+                    for i in range(tips[k], found):
+                        for order in range(2):
+                            if side[i] >> order & 1:
+                                hints[order, k] |= np.uint64(1) << np.uint64(tip[i] & 63)
+    tips[columns.shape[1]] = found
+    return tips, tip, side, hints
+
+
+@borrowing
+def _tips_of(
+    rings: Rings, v: int, s: int, ends: tuple[int, int], edge: int, tip: Ints, side: Ints, found: int
+) -> int:
+    """Add the tips of one quadrilateral, and return how many there are then."""
+    p, q = ends
+    for k in range(rings.start[edge], rings.start[edge + 1]):
+        t = rings.apex[k]
+        if t > v and t != q:
+            value = corner(rings, s, p, q, t)
+            tip[found] = t
+            side[found] = (value > -rings.rounding[s]) + 2 * (value < rings.rounding[s])
+            found += 1
+    return found
