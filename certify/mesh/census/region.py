@@ -110,94 +110,81 @@ def looked_up(table: Table, low: int, high: int) -> int:
 
 
 class Walk(NamedTuple):
-    """What a walk remembers.
+    """What a walk remembers, next to its number, which tells it from those before.
 
-    place: for each vertex of the mesh its place among the eight, or -1; closed, seen: for each set
-    of vertices whether it is a barrier, and whether it was visited; stack: tetrahedra to visit;
-    been: the sets visited.
+    place: for each vertex of the mesh its place among the eight, plus eight times the number of the
+    walk that it was in; closed: for each set of vertices whether it is a barrier; seen: the number
+    of the walk that visited it; stack: tetrahedra to visit.
     """
 
-    place: NDArray[np.int8]
+    number: NDArray[np.int64]
+    place: NDArray[np.int64]
     closed: NDArray[np.bool_]
-    seen: NDArray[np.bool_]
+    seen: NDArray[np.int64]
     stack: NDArray[np.int64]
-    been: NDArray[np.int64]
 
 
 @compiled
 def walk(count: int) -> Walk:
     """Return the memory for walks through a mesh with so many vertices."""
     return Walk(
-        np.full(count, -1, np.int8),
+        np.zeros(1, np.int64),
+        np.zeros(count, np.int64),
         np.zeros(256, np.bool_),
-        np.zeros(256, np.bool_),
-        np.empty(1024, np.int64),
-        np.empty(256, np.int64),
+        np.zeros(256, np.int64),
+        np.empty(512, np.int64),
     )
 
 
 @borrowing
-def region(
-    rings: Rings, table: Table, memory: Walk, eight: Ints, kinds: Ints, begin: int
-) -> int:
+def region(rings: Rings, table: Table, memory: Walk, eight: Ints, kinds: Ints, begin: int) -> int:
     """Return the labelled triangulation that the region is, or -1.
 
     eight: the vertices in the order of the template; kinds: for each facet abcd, 1 if ac has its
     triangles, plus 2 if bd has; begin: the tetrahedron to begin with, or -1.
     """
-    if begin < 0:
-        return -1
+    memory.number[0] += 1
     for i in range(8):
-        memory.place[eight[i]] = i
+        memory.place[eight[i]] = 8 * memory.number[0] + i
     for f in range(6):
         for d in range(2):
-            if kinds[f] >> d & 1:
-                memory.closed[table.barriers[f, d, 0]] = True
-                memory.closed[table.barriers[f, d, 1]] = True
-    low, high, visited = _walked(rings, table, memory, begin)
-    for i in range(8):
-        memory.place[eight[i]] = -1
-    for f in range(6):
-        for d in range(2):
-            memory.closed[table.barriers[f, d, 0]] = False
-            memory.closed[table.barriers[f, d, 1]] = False
-    for i in range(visited):
-        memory.seen[memory.been[i]] = False
+            memory.closed[table.barriers[f, d, 0]] = kinds[f] >> d & 1
+            memory.closed[table.barriers[f, d, 1]] = kinds[f] >> d & 1
+    low, high = _walked(rings, table, memory, begin)
     return looked_up(table, low, high)
 
 
 @borrowing
-def _walked(rings: Rings, table: Table, memory: Walk, begin: int) -> tuple[int, int, int]:
-    """Return the tetrahedra of the region as bits, 0 if it leaves the eight vertices, and how many
-    sets are to be forgotten."""
-    low, high, visited, top = np.uint64(0), np.uint64(0), 0, 1
+def _walked(rings: Rings, table: Table, memory: Walk, begin: int) -> tuple[int, int]:
+    """Return the tetrahedra of the region as bits, or zeros if it leaves the eight vertices.
+
+    There are at most 64 sets of four vertices to be visited: the stack is long enough.
+    """
+    number, words, top = memory.number[0], (np.uint64(0), np.uint64(0)), 1
+    low, high = words
     memory.stack[0] = begin
     while top:
         top -= 1
         t = memory.stack[top]
-        own = 0
-        for i in range(4):
-            place = memory.place[rings.tetrahedra[t, i]]
-            if place < 0:
-                return np.uint64(0), np.uint64(0), visited
-            own |= 1 << place
-        if memory.seen[own]:
+        if t < 0:
+            return words
+        a, b = memory.place[rings.tetrahedra[t, 0]], memory.place[rings.tetrahedra[t, 1]]
+        c, d = memory.place[rings.tetrahedra[t, 2]], memory.place[rings.tetrahedra[t, 3]]
+        if min(min(a, b), min(c, d)) < 8 * number:
+            return words
+        bits = (1 << (a & 7), 1 << (b & 7), 1 << (c & 7), 1 << (d & 7))
+        own = bits[0] | bits[1] | bits[2] | bits[3]
+        if memory.seen[own] == number:
             continue
+        memory.seen[own] = number
         place = table.bit[own]
         if place < 0:
-            return np.uint64(0), np.uint64(0), visited
-        memory.seen[own] = True
-        memory.been[visited] = own
-        visited += 1
-        if place < 64:
+            return words
+        if place < WORD:
             low |= np.uint64(1) << np.uint64(place)
         else:
-            high |= np.uint64(1) << np.uint64(place - 64)
+            high |= np.uint64(1) << np.uint64(place - WORD)
         for i in range(4):
-            if not memory.closed[own ^ (1 << memory.place[rings.tetrahedra[t, i]])]:
-                s = rings.across[t, i]
-                if s < 0:
-                    return np.uint64(0), np.uint64(0), visited
-                memory.stack[top] = s
-                top += 1
-    return low, high, visited
+            memory.stack[top] = rings.across[t, i]
+            top += not memory.closed[own ^ bits[i]]
+    return low, high

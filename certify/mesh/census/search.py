@@ -20,7 +20,7 @@ from certify.mesh.census.region import Table, Walk, region, walk
 from certify.mesh.census.rings import Ints, Rings, bent, meets
 from certify.mesh.census.star import BOTH, Star, grown, star, turned
 from certify.mesh.compiled import borrowing, compiled
-from certify.mesh.jacobian import Workspace, filtered_jacobian, workspace
+from certify.mesh.jacobian import Workspace, filtered_safe, workspace
 from certify.mesh.signs import UNKNOWN
 
 V, P, S1, Q, R, S3, T, S2 = range(8)
@@ -238,10 +238,12 @@ def _decided(
     s1_q: the edge; a, b, c: the kinds of the facets at v as they are seen from q, from q and from p.
     """
     eight, kinds = memory.eight, memory.kinds
+    known = True
     for i in range(8):
+        known &= rings.rounding[eight[i]] < np.inf
         for axis in range(3):
             memory.points[i, axis] = rings.points[eight[i], axis]
-    sign = filtered_jacobian(memory.points, memory.jacobian)
+    sign = filtered_safe(memory.points, memory.jacobian) if known else UNKNOWN
     if sign < 0:
         return 0
     kinds[0], kinds[1], kinds[2] = min(a, BOTH), min(c, BOTH), min(b, BOTH)

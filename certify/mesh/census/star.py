@@ -216,9 +216,9 @@ def _tips(
                 if p < q[run]:
                     found = _tips_of(rings, v, columns[0, k], ends, columns[2, k], tip, side, found)
                     for i in range(tips[k], found):
-                        for order in range(2):
-                            if side[i] >> order & 1:
-                                hints[order, k] |= np.uint64(1) << np.uint64(tip[i] & 63)
+                        bit = np.uint64(1) << np.uint64(tip[i] & 63)
+                        hints[0, k] |= bit * np.uint64(side[i] & 1)
+                        hints[1, k] |= bit * np.uint64(side[i] >> 1)
     tips[columns.shape[1]] = found
     return tips, tip, side, hints
 
