@@ -86,7 +86,7 @@ def bent(rings: Rings, x: int, a: int, b: int, c: int) -> bool:
     return corner(rings, x, a, b, c) <= -rings.rounding[x]
 
 
-_NEXT = np.array([[1, 2, 3], [0, 3, 2], [3, 0, 1], [2, 1, 0]], np.int64)
+NEXT = np.array([[1, 2, 3], [0, 3, 2], [3, 0, 1], [2, 1, 0]], np.int64)
 """For each place in a tetrahedron the three others, in the order that keeps the determinant."""
 
 
@@ -161,15 +161,15 @@ def _entries(
         for k in range(begin[x], begin[x + 1]):
             t, i = around[k] >> 2, around[k] & 3
             for j in range(3):
-                start[edge[tetrahedra[t, _NEXT[i, j]]] + 1] += 1
+                start[edge[tetrahedra[t, NEXT[i, j]]] + 1] += 1
         for e in range(first[x], first[x + 1]):
             start[e + 1] += start[e]
         for k in range(begin[x], begin[x + 1]):
             t, i = around[k] >> 2, around[k] & 3
             for j in range(3):
-                e = edge[tetrahedra[t, _NEXT[i, j]]]
+                e = edge[tetrahedra[t, NEXT[i, j]]]
                 start[e + 1] -= 1
-                apex[start[e + 1]] = tetrahedra[t, _NEXT[i, (j + 1) % 3]]
+                apex[start[e + 1]] = tetrahedra[t, NEXT[i, (j + 1) % 3]]
                 inner[start[e + 1]] = t
         # The ends were moved down to the beginnings: move them up again.
         for e in range(first[x], first[x + 1]):
