@@ -47,7 +47,7 @@ class Rings(NamedTuple):
 def rings(points: Floats, tetrahedra: Ints) -> Rings:
     """Return the rings of a mesh whose tetrahedra have positive determinants and are conforming."""
     across = np.full((len(tetrahedra), 4), -1, np.int32)
-    begin, around = _incident(len(points), tetrahedra)
+    begin, around = incident(len(points), tetrahedra)
     first, heads = _edges(begin, around, tetrahedra)
     start, apex, inner = _entries(begin, around, tetrahedra, first, heads)
     _pair(tetrahedra, first, heads, start, apex, inner, across)
@@ -91,7 +91,7 @@ NEXT = np.array([[1, 2, 3], [0, 3, 2], [3, 0, 1], [2, 1, 0]], np.int64)
 
 
 @compiled
-def _incident(count: int, tetrahedra: Ints) -> tuple[Ints, Ints]:
+def incident(count: int, tetrahedra: Ints) -> tuple[Ints, Ints]:
     """Return the tetrahedra at each vertex: where they begin, and, four times their number,
     the tetrahedra times four plus the place that the vertex has in them."""
     begin = np.zeros(count + 1, np.int32)
