@@ -28,7 +28,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from certify.kernel.chirotope import QUADRUPLES
-from certify.mesh.compiled import compiled
+from certify.mesh.compiled import borrowing, compiled
 
 Floats: TypeAlias = NDArray[np.float64]
 Signs: TypeAlias = NDArray[np.int8]
@@ -140,7 +140,7 @@ def _sign(a: Sequence[int], b: Sequence[int], c: Sequence[int], d: Sequence[int]
     return (value > 0) - (value < 0)
 
 
-@compiled
+@borrowing
 def safe(points: Floats) -> bool:
     """Can nothing over- or underflow in a determinant of these points?"""
     for point in points:
