@@ -6,7 +6,7 @@ labelled triangulations of the hexahedron. It is *valid* if its Jacobian is posi
 cube, exactly. That it has the twelve edges, and two triangles on each facet, follows.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -59,6 +59,7 @@ def count(
     report: Report | None = None,
     size: int = BLOCK,
     root: Path | None = None,
+    take: Callable[[Hexahedra], object] | None = None,
 ) -> Census:
     """Count the valid hexahedra of a mesh by pattern.
 
@@ -72,6 +73,7 @@ def count(
         report: Told about the progress.
         size: How many vertices a block owns.
         root: Where the certificates are.
+        take: Given the hexahedra of each block that is searched, in any order.
 
     Raises:
         ValueError: This is no mesh, or the journal is another's.
@@ -83,7 +85,9 @@ def count(
     with keeping as keep, mapping(jobs, scheduler) as mapped:
         rest = blocks(mesh, size, root, frozenset(done))
         _tell(report, len(done), total)
-        for number, counts in mapped(_counted, rest):
+        for number, counts in (
+            _taken(mapped(searched, rest), take, root) if take else mapped(_counted, rest)
+        ):
             done[number] = counts
             keep(number, counts)
             _tell(report, len(done), total)
@@ -117,8 +121,9 @@ def streamed(
     size: int = BLOCK,
     root: Path | None = None,
 ) -> Iterator[Hexahedra]:
-    """Yield the valid hexahedra of a mesh block by block, as they are done, so that they can be
-    kept without holding them all; the arguments are those of :func:`count`.
+    """Yield the valid hexahedra of a mesh block by block, as they are done.
+
+    So they can be kept without holding them all; the arguments are those of :func:`count`.
 
     Raises:
         ValueError: This is no mesh.
@@ -143,6 +148,14 @@ def counted(found: Hexahedra, root: Path) -> Counts:
         dict(zip(present.tolist(), map(tuple, found.vertices[first].tolist()), strict=True)),
         tuple(map(tuple, found.undecided.tolist())),
     )
+
+
+def _taken(
+    found: Iterable[Hexahedra], take: Callable[[Hexahedra], object], root: Path
+) -> Iterator[tuple[int, Counts]]:
+    for own in found:
+        take(own)
+        yield own.number, counted(own, root)
 
 
 def _counted(block: Block) -> tuple[int, Counts]:
