@@ -8,6 +8,7 @@ cube, exactly. That it has the twelve edges, and two triangles on each facet, fo
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -136,19 +137,31 @@ def streamed(
 
 def counted(found: Hexahedra, root: Path) -> Counts:
     """Return how many there are of each pattern, and the first of each."""
-    names = np.array([own.pattern for own in instances(root)])
+    names = _names(root)
     present, first, times = np.unique(
         names[found.instances], return_index=True, return_counts=True
     )
     return Counts(
-        dict(zip(present.tolist(), times.tolist(), strict=True)),
-        dict(zip(present.tolist(), map(tuple, found.vertices[first].tolist()), strict=True)),
+        {PATTERN_NAMES[i]: int(k) for i, k in zip(present, times, strict=True)},
+        {
+            PATTERN_NAMES[i]: tuple(own)
+            for i, own in zip(present, found.vertices[first].tolist(), strict=True)
+        },
         tuple(map(tuple, found.undecided.tolist())),
     )
 
 
+@lru_cache(maxsize=4)
+def _names(root: Path) -> NDArray[np.int64]:
+    """Return the place of the pattern of each labelled triangulation among the names."""
+    place = {name: i for i, name in enumerate(PATTERN_NAMES)}
+    return np.array([place[own.pattern] for own in instances(root)])
+
+
 def _counted(block: Block) -> tuple[int, Counts]:
-    return block.number, counted(searched(block), block.root)
+    """Count as :func:`counted` does, but bring only the witnesses into their least labelling."""
+    found = searched(block)
+    return block.number, counted(found, block.root)
 
 
 def _tell(report: Report | None, done: int, total: int) -> None:

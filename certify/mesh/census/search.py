@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from certify.mesh.census.region import Table, Walk, region, walk
-from certify.mesh.census.rings import Ints, Rings, bent, meets
+from certify.mesh.census.rings import Ints, Rings, along, bent, meets, product
 from certify.mesh.census.star import BOTH, Star, grown, star, turned
 from certify.mesh.compiled import borrowing, compiled
 from certify.mesh.jacobian import Workspace, filtered_safe, workspace
@@ -124,10 +124,10 @@ def _around(
         s1 = at.s[a]
         if s1 == r:
             continue
-        eight[S1] = s1
+        eight[S1], normal = s1, product(rings, q, v, s1)
         for b in range(at.start[run_b], at.start[run_b + 1]):
             s2 = at.s[b]
-            if s2 in (p, s1) or bent(rings, q, v, s1, s2):
+            if s2 in (p, s1) or along(rings, normal, q, s2) <= -rings.rounding[q]:
                 continue
             eight[S2] = s2
             ends = _ends(rings, memory, at, a, b)

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from certify.mesh.census.rings import Ints, Rings, Words, corner, meets
+from certify.mesh.census.rings import Ints, Rings, Words, along, meets, product
 from certify.mesh.compiled import borrowing, compiled
 
 BOTH = 3
@@ -228,12 +228,12 @@ def _tips_of(
     rings: Rings, v: int, s: int, ends: tuple[int, int], edge: int, tip: Ints, side: Ints, found: int
 ) -> int:
     """Add the tips of one quadrilateral, and return how many there are then."""
-    p, q = ends
+    normal, low = product(rings, s, ends[0], ends[1]), -rings.rounding[s]
     for k in range(rings.start[edge], rings.start[edge + 1]):
         t = rings.apex[k]
-        if t > v and t != q:
-            value = corner(rings, s, p, q, t)
+        if t > v and t != ends[1]:
+            value = along(rings, normal, s, t)
             tip[found] = t
-            side[found] = (value > -rings.rounding[s]) + 2 * (value < rings.rounding[s])
+            side[found] = (value > low) + 2 * (value < -low)
             found += 1
     return found
