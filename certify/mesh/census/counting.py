@@ -16,13 +16,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from certify.kernel.certificate import PATTERN_NAMES
 from certify.kernel.evidence import default_root
-from certify.mesh.census.blocks import Block, Hexahedra, blocks, number_of_blocks, searched
+from certify.mesh.census.blocks import Block, Hexahedra, blocks, least, number_of_blocks, searched
 from certify.mesh.census.journal import Counts, opened
 from certify.mesh.census.prepare import Mesh, prepare
 from certify.mesh.census.running import mapping
 from certify.mesh.instances import instances
 
-BLOCK = 20_000
+BLOCK = 10_000
 """A block owns so many vertices, unless told otherwise."""
 
 Report = Callable[[str, int, int], object]
@@ -130,38 +130,42 @@ def streamed(
     with mapping(jobs, scheduler) as mapped:
         _tell(report, 0, total)
         own = blocks(mesh, size, root or default_root())
-        for done, found in enumerate(mapped(searched, own), start=1):
+        for done, found in enumerate(mapped(_least, own), start=1):
             yield found
             _tell(report, done, total)
 
 
 def counted(found: Hexahedra, root: Path) -> Counts:
-    """Return how many there are of each pattern, and the first of each."""
-    names = _names(root)
-    present, first, times = np.unique(
-        names[found.instances], return_index=True, return_counts=True
+    """Return how many there are of each pattern, and the first of each in its least labelling."""
+    patterns = _patterns(root)[found.instances]
+    times = np.bincount(patterns, minlength=len(PATTERN_NAMES)).tolist()
+    first = np.zeros(len(PATTERN_NAMES), np.int64)
+    first[patterns[::-1]] = np.arange(len(patterns))[::-1]
+    present = [i for i, k in enumerate(times) if k]
+    witnesses = Hexahedra(
+        0, found.vertices[first[present]], found.instances[first[present]], found.undecided
     )
+    shown = least(witnesses, root).vertices.tolist()
     return Counts(
-        {PATTERN_NAMES[i]: int(k) for i, k in zip(present, times, strict=True)},
-        {
-            PATTERN_NAMES[i]: tuple(own)
-            for i, own in zip(present, found.vertices[first].tolist(), strict=True)
-        },
+        {PATTERN_NAMES[i]: times[i] for i in present},
+        {PATTERN_NAMES[i]: tuple(own) for i, own in zip(present, shown, strict=True)},
         tuple(map(tuple, found.undecided.tolist())),
     )
 
 
 @lru_cache(maxsize=4)
-def _names(root: Path) -> NDArray[np.int64]:
+def _patterns(root: Path) -> NDArray[np.int64]:
     """Return the place of the pattern of each labelled triangulation among the names."""
     place = {name: i for i, name in enumerate(PATTERN_NAMES)}
     return np.array([place[own.pattern] for own in instances(root)])
 
 
 def _counted(block: Block) -> tuple[int, Counts]:
-    """Count as :func:`counted` does, but bring only the witnesses into their least labelling."""
-    found = searched(block)
-    return block.number, counted(found, block.root)
+    return block.number, counted(searched(block), block.root)
+
+
+def _least(block: Block) -> Hexahedra:
+    return least(searched(block), block.root)
 
 
 def _tell(report: Report | None, done: int, total: int) -> None:
