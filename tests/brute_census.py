@@ -158,6 +158,4 @@ def _regions(
     }
     for instance in labelled():
         if have.issuperset(instance.signs):
-            yield frozenset(
-                frozenset(eight[v - 1] for v in t) for t in instance.tetrahedra
-            )
+            yield frozenset(frozenset(eight[v - 1] for v in t) for t in instance.tetrahedra)

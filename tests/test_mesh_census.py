@@ -50,7 +50,7 @@ def patterns_of(points: Array, tetrahedra: Array) -> dict[tuple[int, ...], str]:
 
 
 def by_trying(points: Array, tetrahedra: Array) -> dict[tuple[int, ...], str]:
-    found = brute_census.patterns(brute_census.hexahedra(points, tetrahedra))
+    found = brute_census.patterns(brute_census.hexahedra(points.tolist(), tetrahedra.tolist()))
     assert all(len(own) == 1 for own in found.values())  # one region for each hexahedron
     return {eight: min(own) for eight, own in found.items()}
 
@@ -58,7 +58,7 @@ def by_trying(points: Array, tetrahedra: Array) -> dict[tuple[int, ...], str]:
 # What is found.
 
 
-@pytest.mark.parametrize(("seed", "number"), [(0, 24), (1, 24), (2, 24), (3, 40), (4, 60), (5, 60)])
+@pytest.mark.parametrize(("seed", "number"), [(0, 24), (1, 24), (2, 24), (3, 40), (4, 50), (5, 60)])
 def test_the_census_is_what_trying_everything_finds(seed: int, number: int) -> None:
     own = mesh(seed, number)
     found = patterns_of(*own)
@@ -142,7 +142,7 @@ def kuhn(size: tuple[int, int, int]) -> tuple[Array, Array]:
 
 @pytest.mark.parametrize("scale", [1, 0.1, 2.0**-300])
 def test_grids_with_corners_that_are_flat(scale: float) -> None:
-    """Here are Jacobians that are zero at a corner: they are not positive, and none is undecided."""
+    """Here are Jacobians that are zero at a corner: they are not positive."""
     points, cells = kuhn((3, 3, 4))
     found = patterns_of(points * scale, cells)
     assert found == by_trying(points * scale, cells)
@@ -250,17 +250,18 @@ def test_blocks_do_not_matter(many: tuple[Array, Array, Census]) -> None:
     points, cells, whole = many
     for size in (7, 50, 499):
         assert count(points, cells, size=size) == whole
-        parts = [tuple(eight) for own in streamed(points, cells, size=size) for eight in own.vertices]
+        parts = [
+            tuple(eight) for own in streamed(points, cells, size=size) for eight in own.vertices
+        ]
         assert sorted(parts) == sorted(map(tuple, hexahedra(points, cells)[0]))
 
 
-def test_a_block_is_a_part(many: tuple[Array, Array, Census]) -> None:
-    """Only then is memory bounded; with vertices only from the block's beginning on."""
-    points, cells, _ = many
-    own = prepare(points, cells)
-    parts = [*blocks(own, 10, CHECKOUT)]
-    assert max(len(part.tetrahedra) for part in parts) < len(cells) / 2
-    assert len(parts[-1].points) == 10
+def test_a_block_is_a_part() -> None:
+    """Only then is memory bounded. It has only vertices from its beginning on."""
+    own = prepare(*mesh(0, 3000))
+    parts = [*blocks(own, 20, CHECKOUT)]
+    assert max(len(part.tetrahedra) for part in parts) < len(own.tetrahedra) / 3
+    assert len(parts[-1].points) == 20
 
 
 def test_processes_do_not_matter(many: tuple[Array, Array, Census]) -> None:
@@ -305,12 +306,10 @@ def test_a_journal_goes_on(many: tuple[Array, Array, Census], tmp_path: Path) ->
     kept = journal.read_bytes()
     assert kept.count(b"\n") == 3
     journal.write_bytes(kept + b'{"block": 2, "pat')  # killed while it wrote
-    told: list[int] = []
-    again = count(
-        points, cells, size=100, journal=journal, report=lambda _, done, total: told.append(done)
-    )
+    told: list[tuple[str, int, int]] = []
+    again = count(points, cells, size=100, journal=journal, report=lambda *what: told.append(what))
     assert again == whole
-    assert told == [2, 3, 4, 5]
+    assert [done for _, done, _ in told] == [2, 3, 4, 5]
     assert journal.read_bytes().startswith(kept)
     assert count(points, cells, size=100, journal=journal) == whole
 

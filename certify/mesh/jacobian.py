@@ -7,13 +7,14 @@ roads lead to the answer; each decides, or hands on:
 1. A filter. Let X be the largest difference of first coordinates along an edge, as computed, Y and
    Z likewise, and F = XYZ. A coefficient is the mean of at most eight determinants of edges, each a
    sum of six products. With u = 2^-53, as long as nothing over- or underflows, a product as
-   computed has at most 15 factors 1 + δ, |δ| <= u: three differences, two products, three sums in
-   the determinant, at most seven in the mean. So the coefficient's error is at most ((1+u)^15 - 1) 6F' for
-   the exact F', hence less than 92 u F. A halving replaces coefficients by means of them, which
-   keeps their error, and rounds twice numbers below 6.1 F in absolute value: it adds less than
-   12.3 u F. After at most HALVINGS = 30 halvings the error is below 461 u F, and that below
-   2^-44 F, also when this product is rounded. Nothing under- or overflows if the points are safe
-   (signs.py): all numbers are multiples of 2^-(876 + 3 + 60), and less than 2^910.
+   computed has at most 12 factors 1 + δ, |δ| <= u: three differences, two products, and sums, one
+   in a vector product, one of two of these, two in a scalar product, three of four of these. So the
+   coefficient's error is at most ((1+u)^12 - 1) 6F' for the exact F', hence less than 92 u F. A
+   halving replaces coefficients by means of them, which keeps their error, and rounds twice numbers
+   below 6.1 F in absolute value: it adds less than 12.3 u F. After at most HALVINGS = 30 halvings
+   the error is below 461 u F, and that below 2^-44 F, also when this product is rounded. Nothing
+   under- or overflows if the points are safe (signs.py): all numbers are multiples of
+   2^-(876 + 3 + 60), and less than 2^910.
 2. A filter without error. If all coordinates are multiples of a power of two, g, then everything
    after h halvings is a multiple of g^3 / (8 * 4^h), and at most 6 F: it is computed without error
    as long as their quotient is below 2^53.
@@ -51,7 +52,7 @@ Box: TypeAlias = NDArray[np.float64]
 """27 Bernstein coefficients; that with the indices i, j, k is at 9i + 3j + k."""
 
 _BIT = (0, 1)
-_AT = {corner: vertex - 1 for vertex, corner in CORNERS.items()}
+_AT: dict[tuple[int, ...], int] = {corner: vertex - 1 for vertex, corner in CORNERS.items()}
 _EDGES = np.array(
     [
         [_AT[(*ends[:axis], side, *ends[axis:])] for side in _BIT]
@@ -109,7 +110,10 @@ def positive(points: Numbers) -> Signs:
 
 def decided(points: NDArray[Any]) -> int:
     """Return 1, -1 or 0 as :func:`positive` does, for one hexahedron, by integers of any size."""
-    coefficients = bernstein_coefficients([tuple(map(Fraction, p)) for p in points.tolist()])
+    return _decided(bernstein_coefficients([tuple(map(Fraction, p)) for p in points.tolist()]))
+
+
+def _decided(coefficients: Coefficients) -> int:
     if not all(_positive_on(*edge) for edge in _edges(coefficients)):
         return -1
     boxes = [coefficients]
@@ -147,8 +151,11 @@ def _filter(points: Floats, out: Signs) -> None:
 
 
 class Workspace(NamedTuple):
-    """What :func:`filtered_jacobian` writes on: a stack of boxes, how often each was halved, the
-    edges, and sums of products of edges."""
+    """What :func:`filtered_jacobian` writes on.
+
+    boxes: a stack; depths: how often each was halved; edges: the twelve; crosses: sums of vector
+    products of edges.
+    """
 
     boxes: Floats
     depths: NDArray[np.int64]
@@ -263,11 +270,11 @@ def _halvings_without_error(points: Floats, size: float) -> int:
             most = max(most, abs(x))
     if most == 0.0 or size == 0.0:
         return HALVINGS
-    exponent = np.int64(np.ceil(np.log2(most))) + 1
+    exponent = int(np.ceil(np.log2(most))) + 1
     scale = 2.0 ** (_LATTICE - exponent)
     for point in points:
         for x in point:
-            whole = np.int64(x * scale)
+            whole = int(x * scale)
             if whole != x * scale:
                 return -1
             bits |= whole

@@ -59,7 +59,9 @@ class Hexahedra(NamedTuple):
     undecided: NDArray[np.int64]
 
 
-def blocks(mesh: Mesh, size: int, root: Path, done: frozenset[int] = frozenset()) -> Iterator[Block]:
+def blocks(
+    mesh: Mesh, size: int, root: Path, done: frozenset[int] = frozenset()
+) -> Iterator[Block]:
     """Yield the blocks that own ``size`` vertices each, along the curve, except those done."""
     count = len(mesh.points)
     begin, around = incident(count, mesh.tetrahedra)
@@ -125,7 +127,7 @@ def _around(
 
 
 def searched(block: Block) -> Hexahedra:
-    """Return the valid hexahedra that a block owns. Each Jacobian is decided, or listed as undecided."""
+    """Return the valid hexahedra that a block owns; every Jacobian is decided, or listed."""
     found = search(rings(block.points, block.tetrahedra), table(block.root), 0, block.owned)
     local, own = found[:, :8], found[:, 8].astype(np.int64)
     answers = np.ones(len(own), np.int8)

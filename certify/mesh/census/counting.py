@@ -118,8 +118,10 @@ def streamed(
     size: int = BLOCK,
     root: Path | None = None,
 ) -> Iterator[Hexahedra]:
-    """Yield the valid hexahedra of a mesh block by block, as they are done, so that they can be
-    kept without holding them all; the arguments are those of :func:`count`.
+    """Yield the valid hexahedra of a mesh, each in its least labelling, a block when it is done.
+
+    Whoever writes them to a file never holds them all. The arguments are those of :func:`count`;
+    the blocks come in any order if there are several processes.
 
     Raises:
         ValueError: This is no mesh.
@@ -175,9 +177,7 @@ def _tell(report: Report | None, done: int, total: int) -> None:
 
 def _summed(mesh: Mesh, parts: list[Counts]) -> Census:
     """Add up the blocks, which are in the order of the curve."""
-    patterns = {
-        name: sum(part.patterns.get(name, 0) for part in parts) for name in PATTERN_NAMES
-    }
+    patterns = {name: sum(part.patterns.get(name, 0) for part in parts) for name in PATTERN_NAMES}
     witnesses = {
         name: next(part.witnesses[name] for part in parts if name in part.witnesses)
         for name, times in patterns.items()

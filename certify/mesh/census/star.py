@@ -21,7 +21,7 @@ class Star(NamedTuple):
     """The quadrilaterals at a vertex v, each twice: sorted by p, then by q.
 
     A neighbour of v is known by its number among all of them, from 0.
-    count: how many neighbours; begin: where the runs of each p begin, and the end; q: of each run;
+    neighbours: how many; begin: where the runs of each p begin, and the end; q: of each run;
     start: where its quadrilaterals begin, and the end; s, kind: of each quadrilateral, the kind as
     it is seen from p; to_p, to_q: the edges from s.
     Towards the far corner, if p < q: tips, where the vertices of the ring of sp begin at which the
@@ -30,7 +30,7 @@ class Star(NamedTuple):
     possible; ahead and aback: the hints, see Rings, of those of either order.
     """
 
-    count: int
+    neighbours: int
     begin: Ints
     q: Ints
     start: Ints
@@ -122,16 +122,12 @@ def _kind(rings: Rings, k: int, m: int) -> int:
 
 @borrowing
 def _has(rings: Rings, tetrahedron: int, vertex: int) -> bool:
-    for i in range(4):
-        if rings.tetrahedra[tetrahedron, i] == vertex:
-            return True
-    return False
+    own = rings.tetrahedra[tetrahedron]
+    return bool(vertex == own[0] or vertex == own[1] or vertex == own[2] or vertex == own[3])
 
 
 @borrowing
-def _with_the_diagonal_across(
-    rings: Rings, v: int, number: Ints, rows: Ints, found: int
-) -> int:
+def _with_the_diagonal_across(rings: Rings, v: int, number: Ints, rows: Ints, found: int) -> int:
     """Add the quadrilaterals that have only the diagonal pq."""
     for e in range(rings.first[v], rings.first[v + 1]):
         p = rings.heads[e]
@@ -181,11 +177,11 @@ def _sorted(rows: Ints, found: int, count: int) -> tuple[Ints, Ints, Ints, Ints]
     place[:] = begin
     for own in by_q:
         row, side = rows[own >> 1], own & 1
-        k = place[row[side]]
+        to = place[row[side]]
         place[row[side]] += 1
-        other[k], columns[0, k] = row[1 - side], row[2]
-        columns[1, k] = turned(row[3]) if side else row[3]
-        columns[2, k], columns[3, k] = row[4 + side], row[5 - side]
+        other[to], columns[0, to] = row[1 - side], row[2]
+        columns[1, to] = turned(row[3]) if side else row[3]
+        columns[2, to], columns[3, to] = row[4 + side], row[5 - side]
     runs, start = 0, np.empty(2 * found + 1, np.int32)
     for p in range(count):
         low, high = begin[p], begin[p + 1]
@@ -225,7 +221,14 @@ def _tips(
 
 @borrowing
 def _tips_of(
-    rings: Rings, v: int, s: int, ends: tuple[int, int], edge: int, tip: Ints, side: Ints, found: int
+    rings: Rings,
+    v: int,
+    s: int,
+    ends: tuple[int, int],
+    edge: int,
+    tip: Ints,
+    side: Ints,
+    found: int,
 ) -> int:
     """Add the tips of one quadrilateral, and return how many there are then."""
     normal, low = product(rings, s, ends[0], ends[1]), -rings.rounding[s]
