@@ -176,7 +176,7 @@ def _sorted(rows: Ints, found: int, count: int) -> tuple[Ints, Ints, Ints, Ints]
     other, columns = np.empty(2 * found, np.int32), np.empty((4, 2 * found), np.int32)
     place[:] = begin
     for own in by_q:
-        row, side = rows[own >> 1], own & 1
+        row, side = rows[own >> 1], int(own & 1)
         to = place[row[side]]
         place[row[side]] += 1
         other[to], columns[0, to] = row[1 - side], row[2]
