@@ -135,7 +135,7 @@ def _candidates(count: int, faces: set[frozenset[int]]) -> Iterator[Hexahedron]:
 
 
 def _valid(own: Sequence[Vector]) -> bool:
-    """Is the Jacobian positive on the cube? First at the corners; then deeper than the kernel asks."""
+    """Is the Jacobian positive on the cube? First at the corners, then by halving."""
     for v, corner in enumerate(AT):
         a, b, c = (AT.index((*corner[:i], 1 - corner[i], *corner[i + 1 :])) for i in range(3))
         if (-1) ** sum(corner) * sign(volume(own[v], own[a], own[b], own[c])) <= 0:
