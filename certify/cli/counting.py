@@ -167,7 +167,7 @@ def _meshes(path: Path | None, random: Sequence[int], seeds: int) -> Iterator[Me
 
 
 def _run(mesh: Mesh, root: Path, how: Mapping[str, Any], save: Path | None, show: Show) -> Run:
-    """Count the hexahedra of a mesh, save them if that is asked, and have the kernel confirm some."""
+    """Count the hexahedra of a mesh, save them if asked to, and have the kernel confirm some."""
     from certify.mesh.census import count
     from certify.mesh.census.tally import confirmed
     from certify.mesh.reading import BadMesh

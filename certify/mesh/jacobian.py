@@ -7,13 +7,14 @@ roads lead to the answer; each decides, or hands on:
 1. A filter. Let X be the largest difference of first coordinates along an edge, as computed, Y and
    Z likewise, and F = XYZ. A coefficient is the mean of at most eight determinants of edges, each a
    sum of six products. With u = 2^-53, as long as nothing over- or underflows, a product as
-   computed has at most 15 factors 1 + δ, |δ| <= u: three differences, two products, three sums in
-   the determinant, at most seven in the mean. So the coefficient's error is at most ((1+u)^15 - 1) 6F' for
-   the exact F', hence less than 92 u F. A halving replaces coefficients by means of them, which
-   keeps their error, and rounds twice numbers below 6.1 F in absolute value: it adds less than
-   12.3 u F. After at most HALVINGS = 30 halvings the error is below 461 u F, and that below
-   2^-44 F, also when this product is rounded. Nothing under- or overflows if the points are safe
-   (signs.py): all numbers are multiples of 2^-(876 + 3 + 60), and less than 2^910.
+   computed has at most 12 factors 1 + δ, |δ| <= u: three differences, two products, and sums, one
+   in a vector product, one of two of these, two in a scalar product, three of four of these. So the
+   coefficient's error is at most ((1+u)^12 - 1) 6F' for the exact F', hence less than 92 u F. A
+   halving replaces coefficients by means of them, which keeps their error, and rounds twice numbers
+   below 6.1 F in absolute value: it adds less than 12.3 u F. After at most HALVINGS = 30 halvings
+   the error is below 461 u F, and that below 2^-44 F, also when this product is rounded. Nothing
+   under- or overflows if the points are safe (signs.py): all numbers are multiples of
+   2^-(876 + 3 + 60), and less than 2^910.
 2. A filter without error. If all coordinates are multiples of a power of two, g, then everything
    after h halvings is a multiple of g^3 / (8 * 4^h), and at most 6 F: it is computed without error
    as long as their quotient is below 2^53.
@@ -26,6 +27,7 @@ roads lead to the answer; each decides, or hands on:
 from collections.abc import Iterator
 from fractions import Fraction
 from itertools import product
+from operator import mul
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -37,7 +39,7 @@ from certify.kernel.jacobian import Coefficients, bernstein_coefficients, halves
 from certify.kernel.validity import across
 from certify.mesh.compiled import borrowing, compiled
 from certify.mesh.quality import jacobian_bounds
-from certify.mesh.signs import UNKNOWN, Floats, Numbers, Signs, numbers, safe
+from certify.mesh.signs import UNKNOWN, Floats, Numbers, Signs, exact_signs, numbers, safe
 
 HALVINGS = 30
 """The filter halves a box no more often: ten times in each direction."""
@@ -58,7 +60,7 @@ Box: TypeAlias = NDArray[np.float64]
 """27 Bernstein coefficients; that with the indices i, j, k is at 9i + 3j + k."""
 
 _BIT = (0, 1)
-_AT = {corner: vertex - 1 for vertex, corner in CORNERS.items()}
+_AT: dict[tuple[int, ...], int] = {corner: vertex - 1 for vertex, corner in CORNERS.items()}
 _EDGES = np.array(
     [
         [_AT[(*ends[:axis], side, *ends[axis:])] for side in _BIT]
@@ -86,6 +88,13 @@ _DOTS = np.array(
 """Such a place, an edge in direction w, and the coefficient that their product belongs to."""
 
 _SCALES = np.array([0.5 ** index.count(1) for index in product(range(3), repeat=3)])
+
+
+_AT_CORNERS = np.array(
+    [[vertex - 1, *(across(vertex, axis) - 1 for axis in range(3))] for vertex in CORNERS]
+)
+_PARITY = [(-1) ** sum(corner) for corner in CORNERS.values()]
+"""At a corner the Jacobian is this times the determinant of it and its three neighbours."""
 
 
 def positive(points: Numbers) -> Signs:
@@ -142,7 +151,12 @@ def _below(value: Fraction) -> float:
 
 def decided(points: NDArray[Any]) -> int:
     """Return 1, -1 or 0 as :func:`positive` does, for one hexahedron, by integers of any size."""
-    coefficients = bernstein_coefficients(_kernels(points))
+    if min(map(mul, exact_signs(points, _AT_CORNERS), _PARITY)) <= 0:
+        return -1  # which is by far the most frequent answer, and takes little
+    return _decided(bernstein_coefficients(_kernels(points)))
+
+
+def _decided(coefficients: Coefficients) -> int:
     if any(_failing(coefficients)):
         return -1
     boxes = [coefficients]
@@ -199,8 +213,11 @@ def _filter(points: Floats, out: Signs) -> None:
 
 
 class Workspace(NamedTuple):
-    """What :func:`filtered_jacobian` writes on: a stack of boxes, how often each was halved, the
-    edges, and sums of products of edges."""
+    """What :func:`filtered_jacobian` writes on.
+
+    boxes: a stack; depths: how often each was halved; edges: the twelve; crosses: sums of vector
+    products of edges.
+    """
 
     boxes: Floats
     depths: NDArray[np.int64]
@@ -315,7 +332,9 @@ def _lower_bound(scratch: Workspace, error: float) -> float:
     while top:
         top, looked = top - 1, looked + 1
         box, depth = boxes[top], depths[top]
-        lowest, corner = box.min(), np.inf
+        lowest, corner = np.inf, np.inf
+        for place in range(27):
+            lowest = min(lowest, box[place])
         for place in (0, 2, 6, 8, 18, 20, 24, 26):
             corner = min(corner, box[place])
         enough = lowest > error or corner <= error or looked > BOXES
@@ -350,14 +369,14 @@ def _halvings_without_error(points: Floats, size: float) -> int:
             most = max(most, abs(x))
     if most == 0.0 or size == 0.0:
         return HALVINGS
-    exponent = np.int64(np.ceil(np.log2(most))) + 1
+    exponent = int(np.ceil(np.log2(most))) + 1
     scale = 2.0 ** (_LATTICE - exponent)
     for point in points:
         for x in point:
-            whole = np.int64(x * scale)
+            whole = int(x * scale)
             if whole != x * scale:
                 return -1
-            bits |= int(whole)
+            bits |= whole
     unit = 1.0 / scale
     while not bits & 1:
         bits, unit = bits >> 1, 2.0 * unit

@@ -48,7 +48,7 @@ class Block(NamedTuple):
 class Hexahedra(NamedTuple):
     """Valid hexahedra of a block, in the order in which they were found.
 
-    number: the block's; vertices: (k, 8), as they were given, each in its least labelling;
+    number: the block's; vertices: (k, 8), as they were given, in the order of the template;
     instances: (k,), which of the labelled triangulations each is; undecided: (j, 8), those of which
     nobody knows whether the Jacobian is positive.
     """
@@ -127,13 +127,19 @@ def _around(
 
 
 def searched(block: Block) -> Hexahedra:
-    """Return the valid hexahedra that a block owns. Each Jacobian is decided, or proved open."""
+    """Return the valid hexahedra that a block owns; every Jacobian is decided, or listed."""
     found = search(rings(block.points, block.tetrahedra), table(block.root), 0, block.owned)
     local, own = found[:, :8], found[:, 8].astype(np.int64)
-    good = own >= 0
-    own[~good] = -1 - own[~good]
-    answers = {int(i): decided(block.points[local[i]]) for i in np.flatnonzero(~good)}
-    good[[i for i, answer in answers.items() if answer > 0]] = True
-    vertices, instances = canonical(block.order[local[good]], own[good], block.root)
-    undecided = block.order[local[[i for i, answer in answers.items() if answer == 0]]]
-    return Hexahedra(block.number, vertices, instances, undecided)
+    answers = np.ones(len(own), np.int8)
+    for index in np.flatnonzero(own < 0):
+        own[index], answers[index] = -1 - own[index], decided(block.points[local[index]])
+    good = answers > 0
+    vertices, undecided = block.order[local[good]], block.order[local[answers == 0]]
+    return Hexahedra(block.number, vertices, own[good], undecided)
+
+
+def least(found: Hexahedra, root: Path) -> Hexahedra:
+    """Return the hexahedra in their least labellings."""
+    return Hexahedra(
+        found.number, *canonical(found.vertices, found.instances, root), found.undecided
+    )

@@ -32,7 +32,8 @@ def canonical(
     Second is the least of its neighbours; that settles the rest.
 
     Args:
-        hexahedra: An array (k, 8) of vertices; instances: (k,), what each is.
+        hexahedra: An array (k, 8) of vertices.
+        instances: An array (k,), the labelled triangulation that each is.
         root: Where the certificates are.
     """
     rotations, moved = _rotations(root)

@@ -8,6 +8,7 @@ cube, exactly. That it has the twelve edges, and two triangles on each facet, fo
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -15,13 +16,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from certify.kernel.certificate import PATTERN_NAMES
 from certify.kernel.evidence import default_root
-from certify.mesh.census.blocks import Block, Hexahedra, blocks, number_of_blocks, searched
+from certify.mesh.census.blocks import Block, Hexahedra, blocks, least, number_of_blocks, searched
 from certify.mesh.census.journal import Counts, opened
 from certify.mesh.census.prepare import Mesh, prepare
 from certify.mesh.census.running import mapping
 from certify.mesh.instances import instances
 
-BLOCK = 20_000
+BLOCK = 10_000
 """A block owns so many vertices, unless told otherwise."""
 
 Report = Callable[[str, int, int], object]
@@ -121,9 +122,10 @@ def streamed(
     size: int = BLOCK,
     root: Path | None = None,
 ) -> Iterator[Hexahedra]:
-    """Yield the valid hexahedra of a mesh block by block, as they are done.
+    """Yield the valid hexahedra of a mesh, each in its least labelling, a block when it is done.
 
-    So they can be kept without holding them all; the arguments are those of :func:`count`.
+    Whoever writes them to a file never holds them all. The arguments are those of :func:`count`;
+    the blocks come in any order if there are several processes.
 
     Raises:
         ValueError: This is no mesh.
@@ -134,18 +136,25 @@ def streamed(
     with mapping(jobs, scheduler) as mapped:
         _tell(report, 0, total)
         own = blocks(mesh, size, root or default_root())
-        for done, found in enumerate(mapped(searched, own), start=1):
+        for done, found in enumerate(mapped(_least, own), start=1):
             yield found
             _tell(report, done, total)
 
 
 def counted(found: Hexahedra, root: Path) -> Counts:
-    """Return how many there are of each pattern, and the first of each."""
-    names = np.array([own.pattern for own in instances(root)])
-    present, first, times = np.unique(names[found.instances], return_index=True, return_counts=True)
+    """Return how many there are of each pattern, and the first of each in its least labelling."""
+    patterns = _patterns(root)[found.instances]
+    times = np.bincount(patterns, minlength=len(PATTERN_NAMES)).tolist()
+    first = np.zeros(len(PATTERN_NAMES), np.int64)
+    first[patterns[::-1]] = np.arange(len(patterns))[::-1]
+    present = [i for i, k in enumerate(times) if k]
+    witnesses = Hexahedra(
+        0, found.vertices[first[present]], found.instances[first[present]], found.undecided
+    )
+    shown = least(witnesses, root).vertices.tolist()
     return Counts(
-        dict(zip(present.tolist(), times.tolist(), strict=True)),
-        dict(zip(present.tolist(), map(tuple, found.vertices[first].tolist()), strict=True)),
+        {PATTERN_NAMES[i]: times[i] for i in present},
+        {PATTERN_NAMES[i]: tuple(own) for i, own in zip(present, shown, strict=True)},
         tuple(map(tuple, found.undecided.tolist())),
     )
 
@@ -154,12 +163,23 @@ def _taken(
     found: Iterable[Hexahedra], take: Callable[[Hexahedra], object], root: Path
 ) -> Iterator[tuple[int, Counts]]:
     for own in found:
-        take(own)
+        take(least(own, root))
         yield own.number, counted(own, root)
+
+
+@lru_cache(maxsize=4)
+def _patterns(root: Path) -> NDArray[np.int64]:
+    """Return the place of the pattern of each labelled triangulation among the names."""
+    place = {name: i for i, name in enumerate(PATTERN_NAMES)}
+    return np.array([place[own.pattern] for own in instances(root)])
 
 
 def _counted(block: Block) -> tuple[int, Counts]:
     return block.number, counted(searched(block), block.root)
+
+
+def _least(block: Block) -> Hexahedra:
+    return least(searched(block), block.root)
 
 
 def _tell(report: Report | None, done: int, total: int) -> None:

@@ -29,17 +29,17 @@ def places(points: Floats) -> NDArray[np.int64]:
     x, y, z = np.clip(parts, 0, 2**BITS - 1).astype(np.int64).T.copy()
     for level in range(BITS - 1, 0, -1):
         bit, below = 1 << level, (1 << level) - 1
-        for axis in (x, y, z):
+        x ^= np.where(x & bit, below, 0)
+        for axis in (y, z):
             swapped = np.where(axis & bit, 0, (x ^ axis) & below)
             x ^= np.where(axis & bit, below, swapped)
-            if axis is not x:
-                axis ^= swapped
+            np.bitwise_xor(axis, swapped, out=axis)
     y ^= x
     z ^= y
     flip = np.zeros_like(x)
     for level in range(BITS - 1, 0, -1):
         flip ^= np.where(z & (1 << level), (1 << level) - 1, 0)
-    out = np.zeros_like(x)
+    out: NDArray[np.int64] = np.zeros_like(x)
     for level in range(BITS - 1, -1, -1):
         for axis in (x, y, z):
             out = out << 1 | ((axis ^ flip) >> level & 1)

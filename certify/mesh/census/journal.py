@@ -1,7 +1,7 @@
 """What a block was found to have, and the file that keeps it: an interrupted census can go on.
 
-The file is text, one JSON object a line. The first line says of which mesh and of which blocks; each
-other line is a block. A last line that is cut short is left out, and its block is done again.
+The file is text, one JSON object a line. The first line says of which mesh and of which blocks;
+each other line is a block. A last line that is cut short is left out, and its block is done again.
 """
 
 import json
@@ -51,10 +51,14 @@ def opened(
         OSError: It cannot be read or written.
     """
     if path is None:
-        return {}, nullcontext(lambda block, counts: None)
+        return {}, nullcontext(_forget)
     head = json.dumps({"census": VERSION, **about}, sort_keys=True)
     done, length = _read(path, head) if path.exists() and path.stat().st_size else ({}, 0)
     return done, _Appending(path, length, head)
+
+
+def _forget(block: int, counts: Counts) -> None:
+    """Keep nothing."""
 
 
 class _Appending(AbstractContextManager[Journal]):

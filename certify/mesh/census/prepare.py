@@ -44,7 +44,7 @@ class Mesh(NamedTuple):
         """The SHA-256 of the mesh, which tells it from all others."""
         found = sha256()
         for part in self:
-            found.update(np.ascontiguousarray(part))
+            found.update(np.ascontiguousarray(part).data)
         return found.hexdigest()
 
 
@@ -76,7 +76,7 @@ def prepare(points: ArrayLike, tetrahedra: ArrayLike) -> Mesh:
     first, second = _clash(len(along), own, CHUNK)
     if first >= 0:
         raise NotAMesh(int(second), f"has a triangle on the same side as tetrahedron {first}")
-    by_least = np.argsort(own.min(axis=1), kind="stable") if len(own) else []
+    by_least = np.argsort(own.min(axis=1, initial=len(along)), kind="stable")
     return Mesh(along, np.ascontiguousarray(own[by_least]), order)
 
 

@@ -90,15 +90,15 @@ def _fill(keys: NDArray[np.uint64], slots: Ints) -> None:
 
 
 @borrowing
-def _slot(low: int, high: int) -> int:
+def _slot(low: np.uint64, high: np.uint64) -> np.int64:
     mixed = low * np.uint64(0x9E3779B97F4A7C15) + high * np.uint64(0xC2B2AE3D27D4EB4F)
     mixed ^= mixed >> np.uint64(32)
     mixed *= np.uint64(0xD6E8FEB86659FD93)
-    return np.int64(mixed >> np.uint64(49))  # type: ignore[no-any-return]
+    return np.int64(mixed >> np.uint64(49))
 
 
 @borrowing
-def looked_up(table: Table, low: int, high: int) -> int:
+def looked_up(table: Table, low: np.uint64, high: np.uint64) -> int:
     """Return the labelled triangulation with exactly these tetrahedra, or -1."""
     slot = _slot(low, high)
     while table.slots[slot] >= 0:
@@ -155,7 +155,7 @@ def region(rings: Rings, table: Table, memory: Walk, eight: Ints, kinds: Ints, b
 
 
 @borrowing
-def _walked(rings: Rings, table: Table, memory: Walk, begin: int) -> tuple[int, int]:
+def _walked(rings: Rings, table: Table, memory: Walk, begin: int) -> tuple[np.uint64, np.uint64]:
     """Return the tetrahedra of the region as bits, or zeros if it leaves the eight vertices.
 
     There are at most 64 sets of four vertices to be visited: the stack is long enough.
@@ -170,7 +170,7 @@ def _walked(rings: Rings, table: Table, memory: Walk, begin: int) -> tuple[int, 
             return words
         a, b = memory.place[rings.tetrahedra[t, 0]], memory.place[rings.tetrahedra[t, 1]]
         c, d = memory.place[rings.tetrahedra[t, 2]], memory.place[rings.tetrahedra[t, 3]]
-        if min(min(a, b), min(c, d)) < 8 * number:
+        if min(a, b, c, d) < 8 * number:
             return words
         bits = (1 << (a & 7), 1 << (b & 7), 1 << (c & 7), 1 << (d & 7))
         own = bits[0] | bits[1] | bits[2] | bits[3]

@@ -70,20 +70,37 @@ def meets(rings: Rings, edge: int, vertex: int) -> int:
 
 
 @borrowing
-def corner(rings: Rings, x: int, a: int, b: int, c: int) -> float:
-    """Return det(a-x, b-x, c-x) for edges xa, xb, xc, with an error below rounding[x]."""
+def product(rings: Rings, x: int, a: int, b: int) -> tuple[float, float, float]:
+    """Return the vector product of two edges xa and xb."""
     points = rings.points
-    x0, x1, x2 = points[x, 0], points[x, 1], points[x, 2]
-    a0, a1, a2 = points[a, 0] - x0, points[a, 1] - x1, points[a, 2] - x2
-    b0, b1, b2 = points[b, 0] - x0, points[b, 1] - x1, points[b, 2] - x2
-    c0, c1, c2 = points[c, 0] - x0, points[c, 1] - x1, points[c, 2] - x2
-    return a0 * (b1 * c2 - b2 * c1) + a1 * (b2 * c0 - b0 * c2) + a2 * (b0 * c1 - b1 * c0)
+    a0, a1, a2 = (
+        points[a, 0] - points[x, 0],
+        points[a, 1] - points[x, 1],
+        points[a, 2] - points[x, 2],
+    )
+    b0, b1, b2 = (
+        points[b, 0] - points[x, 0],
+        points[b, 1] - points[x, 1],
+        points[b, 2] - points[x, 2],
+    )
+    return a1 * b2 - a2 * b1, a2 * b0 - a0 * b2, a0 * b1 - a1 * b0
+
+
+@borrowing
+def along(rings: Rings, normal: tuple[float, float, float], x: int, c: int) -> float:
+    """Return the scalar product of a vector product and an edge xc, with an error < rounding[x]."""
+    points = rings.points
+    return float(
+        normal[0] * (points[c, 0] - points[x, 0])
+        + normal[1] * (points[c, 1] - points[x, 1])
+        + normal[2] * (points[c, 2] - points[x, 2])
+    )
 
 
 @borrowing
 def bent(rings: Rings, x: int, a: int, b: int, c: int) -> bool:
     """Is det(a-x, b-x, c-x) certainly not positive?"""
-    return corner(rings, x, a, b, c) <= -rings.rounding[x]
+    return bool(along(rings, product(rings, x, a, b), x, c) <= -rings.rounding[x])
 
 
 NEXT = np.array([[1, 2, 3], [0, 3, 2], [3, 0, 1], [2, 1, 0]], np.int64)
@@ -92,8 +109,10 @@ NEXT = np.array([[1, 2, 3], [0, 3, 2], [3, 0, 1], [2, 1, 0]], np.int64)
 
 @compiled
 def incident(count: int, tetrahedra: Ints) -> tuple[Ints, Ints]:
-    """Return the tetrahedra at each vertex: where they begin, and, four times their number,
-    the tetrahedra times four plus the place that the vertex has in them."""
+    """Return the tetrahedra at each vertex: where they begin, and the end; and then all in a row.
+
+    There they are numbers: four times the tetrahedron's, plus the place that the vertex has in it.
+    """
     begin = np.zeros(count + 1, np.int32)
     for t in range(len(tetrahedra)):
         for i in range(4):

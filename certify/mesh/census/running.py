@@ -42,7 +42,7 @@ def mapping(
             threads = max(1, sum(client.nthreads().values()))
             yield lambda function, items: _mapped(client.get_executor(), threads, function, items)
     elif jobs == 1:
-        yield lambda function, items: map(function, items)
+        yield map
     else:
         count = min(jobs, MAX_JOBS)
         pool = ProcessPoolExecutor(count, initializer=_obey_the_parent)

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from certify.mesh.census.region import Table, Walk, region, walk
-from certify.mesh.census.rings import Ints, Rings, bent, meets
+from certify.mesh.census.rings import Ints, Rings, along, bent, meets, product
 from certify.mesh.census.star import BOTH, Star, grown, star, turned
 from certify.mesh.compiled import borrowing, compiled
 from certify.mesh.jacobian import Workspace, filtered_safe, workspace
@@ -71,8 +71,8 @@ def search(rings: Rings, table: Table, begin: int, end: int) -> Ints:
     rows, out, found = np.empty((256, 6), np.int32), np.empty((1024, 9), np.int32), 0
     for v in range(begin, end):
         quadrilaterals, rows = star(rings, v, number, rows)
-        if quadrilaterals.count > len(mark):
-            mark = np.full(2 * quadrilaterals.count, -1, np.int32)
+        if quadrilaterals.neighbours > len(mark):
+            mark = np.full(2 * quadrilaterals.neighbours, -1, np.int32)
         memory.eight[V] = v
         after = _joined(rings, table, memory, quadrilaterals, mark, found, out)
         while after > len(out):
@@ -92,7 +92,7 @@ def _joined(
     """
     eight, runs = memory.eight, memory.runs
     v, first = eight[V], rings.first[eight[V]]
-    for q in range(at.count):
+    for q in range(at.neighbours):
         eight[Q] = rings.heads[first + q]
         for a in range(at.begin[q], at.begin[q + 1]):
             p = at.q[a]
@@ -122,10 +122,10 @@ def _around(rings: Rings, table: Table, memory: Memory, at: Star, found: int, ou
         s1 = at.s[a]
         if s1 == r:
             continue
-        eight[S1] = s1
+        eight[S1], normal = s1, product(rings, q, v, s1)
         for b in range(at.start[run_b], at.start[run_b + 1]):
             s2 = at.s[b]
-            if s2 in (p, s1) or bent(rings, q, v, s1, s2):
+            if s2 in (p, s1) or along(rings, normal, q, s2) <= -rings.rounding[q]:
                 continue
             eight[S2] = s2
             ends = _ends(rings, memory, at, a, b)
@@ -229,7 +229,7 @@ def _facet(rings: Rings, a: int, b: int, s: int, t: int) -> int:
 def _decided(rings: Rings, table: Table, memory: Memory, s1_q: int, a: int, b: int, c: int) -> int:
     """Return what the hexahedron is: i + 1 or -1 - i as in :func:`search`, or 0 if it is not valid.
 
-    s1_q: the edge; a, b, c: the kinds of the facets at v as they are seen from q, from q and from p.
+    s1_q: the edge; a, b, c: the kinds of the facets at v, seen from q, from q and from p.
     """
     eight, kinds = memory.eight, memory.kinds
     known = True
@@ -242,10 +242,10 @@ def _decided(rings: Rings, table: Table, memory: Memory, s1_q: int, a: int, b: i
         return 0
     kinds[0], kinds[1], kinds[2] = min(a, BOTH), min(c, BOTH), min(b, BOTH)
     kind, own = turned(a), -1
-    if kind != 2 and kind != 4:  # the region may have the diagonal v s1, hence v s1 q
+    if kind not in (2, 4):  # the region may have the diagonal v s1, hence v s1 q
         begin = rings.inner[meets(rings, s1_q, eight[V])]
         own = region(rings, table, memory.walk, eight, kinds, begin)
-    if own < 0 and kind != 1 and kind != 5:  # it may have p q, hence p s1 q
+    if own < 0 and kind not in (1, 5):  # it may have p q, hence p s1 q
         begin = rings.inner[meets(rings, s1_q, eight[P])]
         own = region(rings, table, memory.walk, eight, kinds, begin)
     if own < 0:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from certify.mesh.census.rings import Ints, Rings, Words, corner, meets
+from certify.mesh.census.rings import Ints, Rings, Words, along, meets, product
 from certify.mesh.compiled import borrowing, compiled
 
 BOTH = 3
@@ -21,7 +21,7 @@ class Star(NamedTuple):
     """The quadrilaterals at a vertex v, each twice: sorted by p, then by q.
 
     A neighbour of v is known by its number among all of them, from 0.
-    count: how many neighbours; begin: where the runs of each p begin, and the end; q: of each run;
+    neighbours: how many; begin: where the runs of each p begin, and the end; q: of each run;
     start: where its quadrilaterals begin, and the end; s, kind: of each quadrilateral, the kind as
     it is seen from p; to_p, to_q: the edges from s.
     Towards the far corner, if p < q: tips, where the vertices of the ring of sp begin at which the
@@ -30,7 +30,7 @@ class Star(NamedTuple):
     possible; ahead and aback: the hints, see Rings, of those of either order.
     """
 
-    count: int
+    neighbours: int
     begin: Ints
     q: Ints
     start: Ints
@@ -122,10 +122,8 @@ def _kind(rings: Rings, k: int, m: int) -> int:
 
 @borrowing
 def _has(rings: Rings, tetrahedron: int, vertex: int) -> bool:
-    for i in range(4):
-        if rings.tetrahedra[tetrahedron, i] == vertex:
-            return True
-    return False
+    own = rings.tetrahedra[tetrahedron]
+    return bool(vertex == own[0] or vertex == own[1] or vertex == own[2] or vertex == own[3])
 
 
 @borrowing
@@ -178,12 +176,12 @@ def _sorted(rows: Ints, found: int, count: int) -> tuple[Ints, Ints, Ints, Ints]
     other, columns = np.empty(2 * found, np.int32), np.empty((4, 2 * found), np.int32)
     place[:] = begin
     for own in by_q:
-        row, side = rows[own >> 1], own & 1
-        k = place[row[side]]
+        row, side = rows[own >> 1], int(own & 1)
+        to = place[row[side]]
         place[row[side]] += 1
-        other[k], columns[0, k] = row[1 - side], row[2]
-        columns[1, k] = turned(row[3]) if side else row[3]
-        columns[2, k], columns[3, k] = row[4 + side], row[5 - side]
+        other[to], columns[0, to] = row[1 - side], row[2]
+        columns[1, to] = turned(row[3]) if side else row[3]
+        columns[2, to], columns[3, to] = row[4 + side], row[5 - side]
     runs, start = 0, np.empty(2 * found + 1, np.int32)
     for p in range(count):
         low, high = begin[p], begin[p + 1]
@@ -233,12 +231,12 @@ def _tips_of(
     found: int,
 ) -> int:
     """Add the tips of one quadrilateral, and return how many there are then."""
-    p, q = ends
+    normal, low = product(rings, s, ends[0], ends[1]), -rings.rounding[s]
     for k in range(rings.start[edge], rings.start[edge + 1]):
         t = rings.apex[k]
-        if t > v and t != q:
-            value = corner(rings, s, p, q, t)
+        if t > v and t != ends[1]:
+            value = along(rings, normal, s, t)
             tip[found] = t
-            side[found] = (value > -rings.rounding[s]) + 2 * (value < rings.rounding[s])
+            side[found] = (value > low) + 2 * (value < -low)
             found += 1
     return found
