@@ -137,9 +137,7 @@ def _small(kind: str) -> Callable[[Any, Rows, Rows, Arrays, Path], None]:
             quality = angles[:, used].min(axis=1)
             cell = np.flatnonzero(found[:, index])
             bits = filling.choice ^ turns[cell]
-            better = (out.best[cell, bits] == WITHOUT) | (
-                quality[cell] > out.quality[cell, bits]
-            )
+            better = (out.best[cell, bits] == WITHOUT) | (quality[cell] > out.quality[cell, bits])
             out.best[cell[better], bits[better]] = index
             out.quality[cell[better], bits[better]] = quality[cell[better]]
 

@@ -40,7 +40,9 @@ def _cubes() -> tuple[NDArray[np.int64], Words, NDArray[np.int64]]:
     As (729, 2) numbers, which bits are fixed, and to what; as words, the numbers that have these
     bits; and the cubes (729, 6) that are wider by one bit, -1 where that bit is free already.
     """
-    cubes = [(care, value) for care in range(_EVERY) for value in range(_EVERY) if not value & ~care]
+    cubes = [
+        (care, value) for care in range(_EVERY) for value in range(_EVERY) if not value & ~care
+    ]
     cubes.sort(key=lambda cube: (cube[0].bit_count(), cube))
     place = {cube: index for index, cube in enumerate(cubes)}
     words = [sum(1 << n for n in range(_EVERY) if n & care == value) for care, value in cubes]

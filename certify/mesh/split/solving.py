@@ -126,9 +126,7 @@ def improved(
 
 
 @compiled
-def _improve(
-    slots: Rows, sides: Rows, allowed: Words, qualities: Qualities, numbers: Rows
-) -> None:
+def _improve(slots: Rows, sides: Rows, allowed: Words, qualities: Qualities, numbers: Rows) -> None:
     """Change the numbers of cells, with those of their neighbours, while that helps."""
     involved, flips = np.empty(SLOTS + 1, np.int64), np.empty(SLOTS + 1, np.int64)
     active = np.ones(len(slots), np.bool_)
@@ -173,9 +171,7 @@ def _improve(
 
 
 @compiled
-def _flipped(
-    slots: Rows, sides: Rows, cell: int, flip: int, involved: Rows, flips: Rows
-) -> int:
+def _flipped(slots: Rows, sides: Rows, cell: int, flip: int, involved: Rows, flips: Rows) -> int:
     """List the cells that have a part in cutting some quadrilaterals of a cell the other way.
 
     flip: these, as bits. Returns how many cells there are, 0 if it has no such quadrilateral.
