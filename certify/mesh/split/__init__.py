@@ -7,3 +7,8 @@ decided exactly: for a hexahedron by the complete list of its triangulations. Wh
 finite choice, one bit a quadrilateral, and a question for a SAT solver: a yes is checked from the
 definition, a no comes with cells that contradict each other, and a proof.
 """
+
+from certify.mesh.split.checking import NotSplit, require_split
+from certify.mesh.split.splitting import Answer, split
+
+__all__ = ["Answer", "NotSplit", "require_split", "split"]

@@ -4,12 +4,12 @@ A split of a mesh are tetrahedra, each of which belongs to a cell, such that
 
 1. each has four vertices of its cell, and a positive determinant;
 2. those of a cell meet only in common faces, and the triangles that lie in but one of them are the
-   triangular faces of the cell, and two for each quadrilateral, on both sides of a diagonal: so they
-   fill what these triangles enclose (kinds.py);
-3. every triangle lies in at most two tetrahedra of the mesh; it lies in one iff the face of which it
-   is part belongs to one cell: so the two cells of a face cut it in the same way;
-4. the volumes of a cell's tetrahedra sum up to the volume that its triangles enclose, exactly. (That
-   follows from the others. It is asked as well.)
+   triangular faces of the cell, and two for each quadrilateral, on both sides of a diagonal: so
+   they fill what these triangles enclose (kinds.py);
+3. every triangle lies in at most two tetrahedra of the mesh; it lies in one iff the face of which
+   it is part belongs to one cell: so the two cells of a face cut it in the same way;
+4. the volumes of a cell's tetrahedra sum up to the volume that its triangles enclose, exactly.
+   (That follows from the others. It is asked as well.)
 
 Not said is that different cells do not overlap: cells that overlap without having a common face do
 so afterwards.
@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from certify.kernel.chirotope import dependence
 from certify.mesh.compiled import compiled
 from certify.mesh.signs import Numbers, Signs, numbers, orientations
-from certify.mesh.split.kinds import QUADRILATERALS, TRIANGLES, WIDTHS, Rows
+from certify.mesh.split.kinds import QUADRILATERALS, TRIANGLES, WIDTHS, Row, Rows
 
 
 class NotSplit(ValueError):
@@ -109,11 +109,11 @@ def _masks(faces: Any, width: int) -> Rows:
 
 def _circuits(vertices: int) -> tuple[Rows, Rows, Rows]:
     """Return of each quintuple the vertices as bits, the places of quadruples, and the factors."""
-    place = {four: index for index, four in enumerate(combinations(range(vertices), 4))}
+    fours: list[Row] = [*combinations(range(vertices), 4)]
     terms = [dependence(own) for own in combinations(range(vertices), 5)]
     return (
         np.array([[1 << t[0] for t in own] for own in terms], np.int64).reshape(-1, 5),
-        np.array([[place[t[1]] for t in own] for own in terms], np.int64).reshape(-1, 5),
+        np.array([[fours.index(t[1]) for t in own] for own in terms], np.int64).reshape(-1, 5),
         np.array([[t[2] for t in own] for own in terms], np.int64).reshape(-1, 5),
     )
 

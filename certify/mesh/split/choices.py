@@ -23,13 +23,12 @@ from certify.kernel.evidence import default_root
 from certify.kernel.hexahedron import BOUNDARIES
 from certify.mesh.compiled import compiled
 from certify.mesh.instances import QUADRUPLE_INDEX
-from certify.mesh.realized import _FACET_SIGNS, Booleans, embedded, labelled, realized
 from certify.mesh.reading import BadMesh
+from certify.mesh.realized import _FACET_SIGNS, Booleans, embedded, labelled, realized
 from certify.mesh.shapes import least_dihedral_angles
 from certify.mesh.signs import Floats, Signs, orientations
 from certify.mesh.split.faces import Faces
 from certify.mesh.split.kinds import (
-    WIDTHS,
     Rows,
     fillings,
     quadruples,
@@ -91,7 +90,7 @@ def choices_of(
     for kind, rows in faces.cells.items():
         for part in _parts(len(rows)):
             own = slice(faces.start(kind) + part.start, faces.start(kind) + part.stop)
-            taken = Arrays(*(array[own] for array in arrays))
+            taken = Arrays(arrays.best[own], arrays.laid[own], arrays.quality[own])
             _FILLED[kind](points, rows[part], faces.turns[own], taken, root or default_root())
             _require_right_way(points, kind, rows[part], part.start, taken, root or default_root())
             if show:
@@ -156,7 +155,9 @@ def _hexahedra(points: Any, rows: Rows, turns: Rows, out: Arrays, root: Path) ->
         *_instance_tables(root),
         np.array([index for index, _ in _FACET_SIGNS]),
         turns,
-        *out,
+        out.best,
+        out.laid,
+        out.quality,
     )
 
 
@@ -242,7 +243,7 @@ def _require_right_way(
         signs = orientations(points, rows)
         if (signs == 0).any():
             raise BadMesh(f"tetra {start + int((signs == 0).argmax()) + 1} is flat")
-        bad = signs < 0
+        bad: Booleans = signs < 0
     else:
         bad = np.zeros(len(rows), np.bool_)
         empty = np.flatnonzero((taken.best == WITHOUT).all(axis=1))
@@ -261,8 +262,9 @@ def _inside_out(points: NDArray[Any], kind: str, rows: Rows, root: Path) -> Bool
     """Which cells are so: all corners are negative, or their mirror images can be filled."""
     mirrored = -signs_of(points, kind, rows)
     found = realized(mirrored, root) if kind == "hexahedron" else realized_fillings(kind, mirrored)
-    out: Booleans = found.any(axis=1) | (corners(points, kind, rows) < 0).all(axis=1)
-    return out
+    inside_out: Booleans = found.any(axis=1)
+    inside_out |= (corners(points, kind, rows) < 0).all(axis=1)
+    return inside_out
 
 
 _CORNERS = {
@@ -283,6 +285,3 @@ def corners(points: NDArray[Any], kind: str, rows: Rows) -> Signs:
     """Return the signs of the corners of cells: (n, number of corners with three edges)."""
     own = rows[:, np.array(_CORNERS[kind])]
     return orientations(points, own.reshape(-1, 4)).reshape(own.shape[:2])
-
-
-__all__ = ["WIDTHS", "Arrays", "Choices", "choices_of", "corners", "figures"]

@@ -68,7 +68,8 @@ class Faces:
     def vertices(self, cell: int) -> Rows:
         """Return the vertices of a cell."""
         kind, index = self.place(cell)
-        return self.cells[kind][index]
+        row: Rows = self.cells[kind][index]
+        return row
 
 
 def faces_of(cells: Mapping[str, Rows]) -> Faces:

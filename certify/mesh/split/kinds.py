@@ -189,6 +189,6 @@ def way_round(points: Numbers, wedges: Rows) -> Rows:
     """Return the wedges with the two triangles exchanged where only then they can be filled."""
     signs = signs_of(points, "wedge", wedges)
     turned = wedges[:, [3, 4, 5, 0, 1, 2]]
-    swap = ~realized_fillings("wedge", signs).any(axis=1)
-    swap[swap] = realized_fillings("wedge", signs_of(points, "wedge", turned[swap])).any(axis=1)
+    swap = ~realized_fillings("wedge", signs).max(axis=1, initial=False)
+    swap[swap] = realized_fillings("wedge", signs_of(points, "wedge", turned[swap])).max(axis=1)
     return np.where(swap[:, None], turned, wedges)

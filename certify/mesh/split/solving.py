@@ -11,7 +11,7 @@ Any solution will do for a yes. Which one is found matters to the angles alone:
   are tried by halving, each by the solver.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -152,9 +152,10 @@ def _improve(slots: Rows, sides: Rows, allowed: Words, qualities: Qualities, num
                     sum_now += qualities[cell, now]
                     sum_then += qualities[cell, then]
                 gain, more = least_then - least_now, sum_then - sum_now
-                if count and (gain > ENOUGH or (gain >= 0 and more > ENOUGH)):
-                    if gain > best_least or (gain == best_least and more > best_sum):
-                        best, best_least, best_sum = flip, gain, more
+                helps = gain > ENOUGH or (gain >= 0 and more > ENOUGH)
+                most = gain > best_least or (gain == best_least and more > best_sum)
+                if count and helps and most:
+                    best, best_least, best_sum = flip, gain, more
             if best:
                 changed = True
                 count = _flipped(slots, sides, h, best, involved, flips)
@@ -235,52 +236,3 @@ def _bottleneck(
         else:
             cut, low = improved(slots, sides, enough, qualities, found), middle + 1
     return cut
-
-
-def contradicting(slots: Rows, allowed: Words, cells: Iterable[int]) -> list[int] | None:
-    """Return a set of these cells that contradict each other, none of them needlessly, or None.
-
-    Every cell in it is needed: without it, the others can be filled.
-    """
-    with Selecting(slots, allowed, [*cells]) as chosen:
-        core = chosen.core(chosen.cells)
-        if core is None:
-            return None
-        while (smaller := chosen.core(core)) is not None and len(smaller) < len(core):
-            core = smaller
-        needed: list[int] = []
-        while core:
-            cell = core.pop()
-            rest = chosen.core(needed + core)
-            if rest is None:
-                needed.append(cell)
-            else:
-                core = [own for own in core if own in set(rest)]
-        return sorted(needed)
-
-
-class Selecting:
-    """A solver that is asked about some of the cells."""
-
-    def __init__(self, slots: Rows, allowed: Words, cells: list[int]) -> None:
-        own = np.array(cells, np.int64)
-        self.first = int(slots[own].max(initial=0)) + 2
-        self.solver = Solver(SOLVER)
-        self.cells: list[int] = []
-        for rows, found in clauses(slots[own], allowed[own]):
-            selectors = -(own[rows] + self.first)
-            self.solver.append_formula(np.column_stack([found, selectors]).tolist())
-            self.cells += own[rows].tolist()
-        self.cells = sorted(set(self.cells))
-
-    def __enter__(self) -> "Selecting":
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.solver.delete()
-
-    def core(self, cells: Iterable[int]) -> list[int] | None:
-        """Return which of these cells contradict each other, or None if they do not."""
-        if self.solver.solve(assumptions=[cell + self.first for cell in cells]):
-            return None
-        return sorted(literal - self.first for literal in self.solver.get_core())
