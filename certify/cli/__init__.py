@@ -1,8 +1,8 @@
 """The command line: parse, call, print. What is true is decided in certify/kernel alone.
 
 One module for each group of commands: :mod:`checking`, :mod:`evidence`, :mod:`exporting`,
-:mod:`auditing`, :mod:`reading`, :mod:`drawing`, :mod:`meshing`, :mod:`doubting`, :mod:`building`;
-what they share is in :mod:`common`.
+:mod:`auditing`, :mod:`reading`, :mod:`drawing`, :mod:`meshing`, :mod:`splitting`, :mod:`doubting`,
+:mod:`building`; what they share is in :mod:`common`.
 """
 
 import os
@@ -25,6 +25,7 @@ from certify.cli import (
     exporting,
     meshing,
     reading,
+    splitting,
 )
 from certify.cli.common import fail
 
@@ -108,6 +109,7 @@ for command in (
     drawing.draw,
     drawing.atlas,
     exporting.export,
+    splitting.split,
     meshing.triangulate,
     meshing.name,
     checking.replay,

@@ -262,9 +262,9 @@ def _inside_out(points: NDArray[Any], kind: str, rows: Rows, root: Path) -> Bool
     """Which cells are so: all corners are negative, or their mirror images can be filled."""
     mirrored = -signs_of(points, kind, rows)
     found = realized(mirrored, root) if kind == "hexahedron" else realized_fillings(kind, mirrored)
-    inside_out: Booleans = found.any(axis=1)
-    inside_out |= (corners(points, kind, rows) < 0).all(axis=1)
-    return inside_out
+    negative = (corners(points, kind, rows) < 0).all(axis=1)
+    out: Booleans = np.logical_or(found.any(axis=1), negative)
+    return out
 
 
 _CORNERS = {

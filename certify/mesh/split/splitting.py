@@ -78,6 +78,15 @@ class Answer:
         found = Counter(PATTERN_NAMES[pattern - 1] for pattern in pairs[:, 1].tolist())
         return dict(sorted(found.items(), key=lambda item: (-item[1], item[0])))
 
+    @property
+    def laid(self) -> int:
+        """How many boundary tetrahedra are laid on hexahedra."""
+        if self.tetrahedra is None:
+            return 0
+        hexahedra = len(self.faces.cells.get("hexahedron", ()))  # they come first
+        own = self.tetrahedra
+        return int(((own.patterns == 0) & (own.cells < hexahedra)).sum())
+
     def why(self, cell: int) -> Unfillable:
         """Return what is known about a cell that cannot be filled."""
         kind, index = self.faces.place(cell)
@@ -127,10 +136,8 @@ def split(
     choices = choices_of(given, faces, root, show)
     empty = choices.allowed == 0
     allowed = np.where(empty, whole(faces.slots), choices.allowed)
-    cut = solved(
-        faces.slots, faces.sides, allowed, choices.arrays.quality, "none" if empty.any() else quality,
-        show,
-    )  # fmt: skip
+    asked = "none" if empty.any() else quality
+    cut = solved(faces.slots, faces.sides, allowed, choices.arrays.quality, asked, show)
     if cut is None:
         found = contradictions(faces.slots, allowed, np.flatnonzero(~empty).tolist())
         return _no(given, faces, choices, found)

@@ -16,9 +16,10 @@ from typing import Any, NamedTuple
 
 import meshio
 import numpy as np
+from numpy.typing import NDArray
 
 from certify.mesh.files import NotExact, silence
-from certify.mesh.split.kinds import VTK_TYPES, Rows
+from certify.mesh.split.kinds import VTK_TYPES
 from certify.mesh.split.splitting import Answer
 
 
@@ -64,7 +65,7 @@ def write_tetrahedra(path: Path, answer: Answer) -> None:
         _require_equal(path, answer, {name: found[own] for name, own in form.data.items()})
 
 
-def data(answer: Answer) -> dict[str, Rows]:
+def data(answer: Answer) -> dict[str, NDArray[np.int32]]:
     """Return the arrays that go with the tetrahedra."""
     if answer.tetrahedra is None:
         return {}
@@ -77,7 +78,7 @@ def data(answer: Answer) -> dict[str, Rows]:
     return {"cell": cells[of], "kind": kinds[of], "pattern": patterns}
 
 
-def _require_equal(path: Path, answer: Answer, arrays: dict[str, Rows]) -> None:
+def _require_equal(path: Path, answer: Answer, arrays: dict[str, NDArray[np.int32]]) -> None:
     """Read a file back, and raise NotExact unless it has these tetrahedra, points and data."""
     try:
         mesh = meshio.read(path)
