@@ -20,7 +20,14 @@ from certify.mesh.split.contradictions import Contradiction, contradictions
 from certify.mesh.split.faces import NONE, Faces, faces_of
 from certify.mesh.split.kinds import Rows, signs_of, way_round
 from certify.mesh.split.solving import QUALITIES, numbers_of, solved
-from certify.mesh.split.tetrahedra import Shape, Tetrahedra, by_recipe, shape, tetrahedra_of
+from certify.mesh.split.tetrahedra import (
+    Shape,
+    Tetrahedra,
+    by_numbers,
+    by_template,
+    shape,
+    tetrahedra_of,
+)
 
 
 class Unfillable(NamedTuple):
@@ -59,13 +66,18 @@ class Answer:
         return shape(self.points, own.vertices, own.cells) if own else None
 
     @cached_property
-    def recipe(self) -> Shape:
-        """How good those are that a fixed recipe makes of the same mesh."""
-        return shape(self.points, *by_recipe(self.faces))
+    def by_numbers(self) -> Shape:
+        """How good those are that a recipe by the numbers of vertices makes of the same mesh."""
+        return shape(self.points, *by_numbers(self.faces))
+
+    @cached_property
+    def by_template(self) -> Shape:
+        """How good those are that one template makes of the same mesh."""
+        return shape(self.points, *by_template(self.faces))
 
     @property
-    def beyond_recipe(self) -> int:
-        """How many cells no tetrahedra fill if the quadrilaterals are cut as the recipe does."""
+    def beyond_numbers(self) -> int:
+        """How many cells no tetrahedra fill if each quadrilateral is cut at its least number."""
         return int((self.choices.allowed & np.uint64(1) == 0).sum())
 
     @cached_property

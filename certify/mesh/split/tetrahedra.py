@@ -1,6 +1,6 @@
 """The tetrahedra of a mesh whose quadrilaterals are cut; and those of a fixed recipe."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -16,8 +16,8 @@ from certify.mesh.realized import labelled
 from certify.mesh.shapes import least_dihedral_angles, mean_ratios
 from certify.mesh.signs import Floats, orientations
 from certify.mesh.split.choices import Choices, figures
-from certify.mesh.split.faces import Faces
-from certify.mesh.split.kinds import QUADRILATERALS, Rows, fillings, surface
+from certify.mesh.split.faces import NONE, SLOTS, Faces
+from certify.mesh.split.kinds import QUADRILATERALS, WIDTHS, Rows, fillings, surface
 
 
 @dataclass(frozen=True)
@@ -92,24 +92,54 @@ def _table(kind: str, root: Path) -> tuple[Rows, Rows]:
     return table, np.array([pattern for _, pattern in every], np.int64)
 
 
-def by_recipe(faces: Faces) -> tuple[Rows, Rows]:
-    """Return what a fixed recipe makes of a mesh: tetrahedra and the cell of each.
+def by_numbers(faces: Faces) -> tuple[Rows, Rows]:
+    """Return what a fixed recipe makes of a mesh: tetrahedra, and the cell of each.
 
     Every quadrilateral is cut through its least vertex (Dompierre, Labbé, Vallet and Camarero 1999,
     "How to subdivide pyramids, prisms and hexahedra into tetrahedra"); and every cell is the cone
-    of its least vertex over the triangles of its surface that do not have it. The cells agree about
-    their quadrilaterals; that a tetrahedron is positive nobody says.
+    of its least vertex over the triangles of its surface that do not have it. Both cells of a
+    quadrilateral cut it in the same way; that a tetrahedron is positive nobody says.
     """
+    return _cones(faces, faces.cells)
+
+
+def by_template(faces: Faces) -> tuple[Rows, Rows, int]:
+    """Return what one template for all cells of a kind makes of a mesh; and how many disagreements.
+
+    A hexahedron becomes six tetrahedra around the diagonal from its first vertex to its seventh.
+    Disagreements are quadrilaterals that their two cells cut in different ways.
+    """
+    ranks = {kind: np.tile(_ORDER[: WIDTHS[kind]], (len(r), 1)) for kind, r in faces.cells.items()}
+    numbers = np.concatenate([_choices(kind, own) for kind, own in ranks.items()]) ^ faces.turns
+    bits = numbers[:, None] >> np.arange(SLOTS) & 1
+    used = faces.slots != NONE
+    seen = np.zeros((len(faces.sides), 2), np.bool_)
+    seen[faces.slots[used], bits[used]] = True
+    return *_cones(faces, ranks), int(seen.all(axis=1).sum())
+
+
+_ORDER = np.array([0, 2, 3, 4, 5, 6, 1, 7])
+"""The seventh vertex comes next to the first."""
+
+
+def _choices(kind: str, ranks: Rows) -> Rows:
+    """Return how each cell is cut if every quadrilateral is so through its vertex of least rank."""
+    out = np.zeros(len(ranks), np.int64)
+    for quad in QUADRILATERALS[kind]:
+        out = 2 * out + ranks[:, quad].argmin(axis=1) % 2
+    return out
+
+
+def _cones(faces: Faces, ranks: Mapping[str, Rows]) -> tuple[Rows, Rows]:
+    """Return the cones of the vertices of least rank over the other sides of their cells."""
     vertices, cells = [], []
     for kind, rows in faces.cells.items():
-        own = np.arange(faces.start(kind), faces.start(kind) + len(rows))
-        triangles = _surfaces(kind)[faces.turns[own]]
-        least = rows.argmin(axis=1)
-        away = (triangles != least[:, None, None]).all(axis=2)
-        which, place = np.nonzero(away)
+        triangles = _surfaces(kind)[_choices(kind, ranks[kind])]
+        least = ranks[kind].argmin(axis=1)
+        which, place = np.nonzero((triangles != least[:, None, None]).all(axis=2))
         local = np.column_stack([triangles[which, place], least[which]])
         vertices.append(rows[which[:, None], local])
-        cells.append(own[which])
+        cells.append(which + faces.start(kind))
     return np.concatenate(vertices), np.concatenate(cells)
 
 
@@ -122,6 +152,7 @@ def _surfaces(kind: str) -> Rows:
 class Shape:
     """How good tetrahedra are. not_positive: how many are inverted or flat; cells: in how many.
 
+    disagreements: how many quadrilaterals their two cells cut in different ways.
     angles and ratios are those of the positive ones: least dihedral angles in degrees, mean ratios.
     """
 
@@ -130,9 +161,10 @@ class Shape:
     cells: int
     angles: Floats
     ratios: Floats
+    disagreements: int = 0
 
 
-def shape(points: NDArray[Any], vertices: Rows, cells: Rows) -> Shape:
+def shape(points: NDArray[Any], vertices: Rows, cells: Rows, disagreements: int = 0) -> Shape:
     """Return how good tetrahedra are; ``cells`` are theirs."""
     good = orientations(points, vertices) > 0
     own = figures(points[vertices[good]])
@@ -142,4 +174,5 @@ def shape(points: NDArray[Any], vertices: Rows, cells: Rows) -> Shape:
         len(np.unique(cells[~good])),
         least_dihedral_angles(own),
         mean_ratios(own),
+        disagreements,
     )
