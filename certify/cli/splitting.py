@@ -4,10 +4,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from os.path import lexists
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
@@ -31,8 +31,6 @@ if TYPE_CHECKING:
     from certify.mesh.split import Answer
     from certify.mesh.split.contradictions import Contradiction
     from certify.mesh.split.tetrahedra import Shape
-
-Record = dict[str, Any]
 
 SHOWN = 10
 """So many cells that cannot be filled are printed; --json has all."""
@@ -108,19 +106,23 @@ def split(
     if proof is not None and proofs:
         _write_proofs(proof, mesh, found, proofs)
     if as_json:
-        print_json(_record(mesh, found, proofs, quality))
+        from certify.mesh.split.reporting import record
+
+        print_json(record(str(mesh), found, proofs, quality))
     else:
         _print(mesh, found, proofs)
         if to is not None and found.tetrahedra is not None:
             click.echo(f"written, read back and compared: {printable(str(to))}")
-        if proof is not None:
-            _print_proofs(proof, len(proofs))
+        if proof is not None and proofs:
+            click.echo(f"formulas and proofs: {printable(str(proof))}")
+        elif proof is not None:
+            click.echo("no cells contradict each other, so there is no proof to write")
     exit_with(found.tetrahedra is not None)
 
 
 def _require_new(path: Path) -> None:
     """Fail unless tetrahedra can be written to a file, and there is none."""
-    from certify.mesh.split.writing import FORMATS
+    from certify.mesh.split.reporting import FORMATS
 
     if path.suffix.lower() not in FORMATS:
         fail(f"{path}: unknown ending; it must be one of {', '.join(FORMATS)}", code=2)
@@ -130,7 +132,7 @@ def _require_new(path: Path) -> None:
 
 def _write(path: Path, found: Answer) -> None:
     from certify.mesh.files import NotExact
-    from certify.mesh.split.writing import write_tetrahedra
+    from certify.mesh.split.reporting import write_tetrahedra
     from certify.writing import written_to
 
     try:
@@ -157,115 +159,114 @@ def _proof(own: Contradiction) -> str:
 def _write_proofs(folder: Path, mesh: Path, found: Answer, proofs: Sequence[str]) -> None:
     """Write each formula with comments that say what it is about, and its proof."""
     from certify.dimacs import write_dimacs
+    from certify.mesh.split.reporting import comments
     from certify.writing import write_files
 
     contents = {}
     for number, (own, proof) in enumerate(zip(found.contradictions, proofs, strict=True), start=1):
-        comments = _comments(mesh, found, own)
-        contents[f"contradiction-{number}.cnf"] = write_dimacs(own.formula, comments).encode()
+        legend = comments(printable(mesh.name), found, own)
+        contents[f"contradiction-{number}.cnf"] = write_dimacs(own.formula, legend).encode()
         contents[f"contradiction-{number}.lrat"] = proof.encode()
     write_files(folder, contents)
 
 
-def _print_proofs(folder: Path, number: int) -> None:
-    if number:
-        click.echo(f"formulas and proofs: {printable(str(folder))}")
-    else:
-        click.echo("no cells contradict each other, so there is no proof to write")
-
-
 def _print(mesh: Path, found: Answer, proofs: Sequence[str]) -> None:
-    counts = ", ".join(plural(len(rows), kind) for kind, rows in found.faces.cells.items())
+    counts = [_count(len(rows), kind) for kind, rows in found.faces.cells.items()]
     sides = found.faces.sides
     outside = int((sides < 0).any(axis=1).sum()) if len(sides) else 0
     print_wrapped(
-        f"{printable(str(mesh))}: {_plurals(counts)}; {plural(len(sides), 'quadrilateral')}, "
+        f"{printable(str(mesh))}: {', '.join(counts)}; {_count(len(sides), 'quadrilateral')}, "
         f"{outside} of them outside"
     )
+    click.echo()
     if found.tetrahedra is not None:
         _print_yes(found)
         return
+    print_wrapped(
+        "no: whatever diagonals are chosen, these cells cannot all be filled by tetrahedra "
+        "without further vertices"
+    )
     click.echo()
-    print_wrapped("no: these cells cannot be split together into tetrahedra without new vertices")
     if found.unfillable:
         _print_unfillable(found)
     for own, proof in zip(found.contradictions, proofs, strict=True):
         _print_contradiction(found, own, proof)
     click.echo()
-    print_wrapped(_recipe_alone(found))
+    _print_table(found)
 
 
-def _plurals(text: str) -> str:
-    return text.replace("hexahedrons", "hexahedra").replace("tetras", "tetrahedra")
+PLURALS = {"hexahedron": "hexahedra", "tetra": "tetrahedra", "tetrahedron": "tetrahedra"}
+
+
+def _count(number: int, noun: str) -> str:
+    """Return a number with its noun, which may have a plural of its own."""
+    return f"{number} {PLURALS[noun]}" if noun in PLURALS and number != 1 else plural(number, noun)
 
 
 def _print_yes(found: Answer) -> None:
-    own = found.shape
-    if own is None:
-        return
-    click.echo()
     print_wrapped(
         "yes: with one diagonal for each quadrilateral every cell is filled by tetrahedra, all "
-        "positively oriented; checked from the definition, exactly"
+        "positively oriented. Checked from the definition, exactly."
     )
     click.echo()
-    rows = [
-        (name, value(own), value(found.recipe))
-        for name, value in (
-            ("tetrahedra", lambda s: str(s.tetrahedra)),
-            ("inverted or flat", lambda s: str(s.not_positive)),
-            ("cells with such", lambda s: str(s.cells)),
-            ("least dihedral angle", _least_angle),
-            ("mean ratio, least", lambda s: _ratio(s, "min")),
-            ("mean ratio, mean of all", lambda s: _ratio(s, "mean")),
-        )
-    ]
-    print_table(("", "this split", "fixed recipe"), rows)
-    print_wrapped(
-        "The recipe cuts every quadrilateral through its vertex with the least number, and takes "
-        "for every cell the cone of its least vertex. " + _beyond(found)
-    )
+    _print_table(found)
+    click.echo()
     if found.patterns:
         names = ", ".join(f"{name} {number}" for name, number in found.patterns.items())
-        print_wrapped(f"hexahedra by pattern: {names}")
+        print_wrapped(f"patterns of the hexahedra: {names}")
     if laid := found.laid:
         print_wrapped(
-            f"{plural(laid, 'tetrahedron')} on the four vertices of a quadrilateral, each laid on "
-            "the pattern of its hexahedron"
+            f"with {_count(laid, 'tetrahedron')} laid on them, on the four vertices of a "
+            "quadrilateral each"
         )
 
 
-def _least_angle(own: Shape) -> str:
-    if own.not_positive or not len(own.angles):
-        return "none" if not len(own.angles) else "inverted"
-    return f"{own.angles.min():.2f}°"
+def _print_table(found: Answer) -> None:
+    """Print what fixed recipes give, beside what was found."""
+    columns = {"by numbers": found.by_numbers, "by template": found.by_template}
+    if found.shape is not None:
+        columns = {"this split": found.shape, **columns}
+    rows = [[name, *map(value, columns.values())] for name, value in _ROWS.items()]
+    print_table(("", *columns), rows)
+    print_wrapped(
+        "By numbers: each quadrilateral is cut at its vertex with the least number, and each cell "
+        f"is the cone of that vertex. {_beyond(found)}"
+    )
+    print_wrapped(
+        "By template: each hexahedron becomes six tetrahedra around the diagonal from its first "
+        "vertex to its seventh."
+    )
 
 
-def _ratio(own: Shape, which: str) -> str:
-    return f"{getattr(own.ratios, which)():.4f}" if len(own.ratios) else "none"
+def _least(values: Sequence[float], form: str) -> str:
+    return format(min(values), form) if len(values) else "-"
+
+
+_ROWS: dict[str, Callable[[Shape], object]] = {
+    "tetrahedra": lambda own: own.tetrahedra,
+    "  inverted or flat": lambda own: own.not_positive,
+    "  cells with such": lambda own: own.cells,
+    "quadrilaterals cut in two ways": lambda own: own.disagreements,
+    "least dihedral angle": lambda own: (
+        "inverted" if own.not_positive else f"{_least(own.angles, '.2f')}°"
+    ),
+    "least mean ratio": lambda own: "inverted" if own.not_positive else _least(own.ratios, ".4f"),
+}
 
 
 def _beyond(found: Answer) -> str:
-    """Say how many cells the diagonals of the recipe leave without a filling."""
-    number = found.beyond_recipe
+    """Say how many cells the diagonals by numbers leave without a filling."""
+    number = found.beyond_numbers
     if not number:
-        return "With these diagonals every cell can be filled."
-    return f"With these diagonals {plural(number, 'cell')} cannot be filled at all."
-
-
-def _recipe_alone(found: Answer) -> str:
-    own = found.recipe
-    return (
-        "For comparison: cutting every quadrilateral through its vertex with the least number "
-        f"gives {plural(own.not_positive, 'tetrahedron')} that are inverted or flat, in "
-        f"{plural(own.cells, 'cell')}. " + _beyond(found)
-    ).replace("tetrahedrons", "tetrahedra")
+        return "These diagonals leave no cell without a filling."
+    cells = "1 cell" if number == 1 else f"{number} cells"
+    return f"With these diagonals no tetrahedra at all fill {cells}."
 
 
 def _print_unfillable(found: Answer) -> None:
     number = len(found.unfillable)
     what = "1 cell" if number == 1 else f"{number} cells, each by itself"
-    print_wrapped(f"no tetrahedra on its own vertices fill {what}:")
+    print_wrapped(f"no tetrahedra fill {what}:")
     for cell in found.unfillable[:SHOWN]:
         print_wrapped(_unfillable(found, cell), indent="  ")
     if number > SHOWN:
@@ -274,20 +275,21 @@ def _print_unfillable(found: Answer) -> None:
 
 def _unfillable(found: Answer, cell: int) -> str:
     own = found.why(cell)
-    ways = f"{plural(own.boundaries, 'way')} to cut its quadrilaterals"
-    crossing = "" if own.crossing is None else f", {own.crossing} with crossing triangles"
-    corners = " ".join(str(vertex + 1) for vertex in own.corners)
-    where = f"; its edges are inverted or flat at vertex {corners}" if corners else ""
-    return f"{found.faces.name(cell)}: {ways}{crossing}{where}"
+    vertices = " ".join(str(vertex + 1) for vertex in own.corners)
+    where = f"; inverted or flat at {'vertices' if ' ' in vertices else 'vertex'} {vertices}"
+    if own.crossing == own.boundaries:
+        reason = "its surface crosses itself however it is cut"
+    elif own.crossing:
+        reason = f"its surface crosses itself in {own.crossing} of {own.boundaries} ways to cut it"
+    else:
+        reason = f"in none of {own.boundaries} ways to cut it"
+    return f"{found.faces.name(cell)}: {reason}{where if vertices else ''}"
 
 
 def _print_contradiction(found: Answer, own: Contradiction, proof: str) -> None:
     names = ", ".join(found.faces.name(cell) for cell in own.cells)
-    what = (
-        "a smallest set, no fewer do" if own.smallest else "any of them left out, the rest do not"
-    )
-    steps = plural(len(proof.splitlines()), "step")
+    what = "no fewer cells do" if own.smallest else "without any of them the others do not"
     print_wrapped(
-        f"{plural(len(own.cells), 'cell')} contradict each other ({what}): {names}; the proof of "
-        f"{steps} was replayed by the kernel"
+        f"{len(own.cells)} cells contradict each other: {names} ({what}; the kernel replayed the "
+        f"proof, {plural(len(proof.splitlines()), 'step')})"
     )

@@ -15,9 +15,8 @@ import numpy as np
 from pysat.examples.hitman import Hitman
 from pysat.solvers import Solver
 
-from certify.mesh.split.clauses import Clause, Words, clauses, formula
 from certify.mesh.split.kinds import Rows
-from certify.mesh.split.solving import SOLVER
+from certify.mesh.split.solving import SOLVER, Clause, Words, clauses, formula
 
 MANY = 10
 """So many sets of cells are looked for at most, no two with a common cell."""
@@ -34,12 +33,14 @@ class Contradiction:
     """Cells that contradict each other.
 
     cells: in increasing order. quadrilaterals: that of each variable, from 1. formula: clauses that
-    say what the cells allow, unsatisfiable. smallest: is that known? Minimal they are.
+    say what the cells allow, unsatisfiable. owners: the cell of each clause. smallest: is that known?
+    Minimal they are.
     """
 
     cells: tuple[int, ...]
     quadrilaterals: tuple[int, ...]
     formula: tuple[Clause, ...]
+    owners: tuple[int, ...]
     smallest: bool
 
 
@@ -62,14 +63,19 @@ def _contradiction(
     slots: Rows, allowed: Words, cells: Sequence[int], smallest: bool
 ) -> Contradiction:
     """Give the quadrilaterals of the cells small numbers, and write the formula."""
-    own = slots[list(cells)]
-    clauses_ = formula(own, allowed[list(cells)])
-    used = sorted({abs(literal) for clause in clauses_ for literal in clause})
+    rows = formula(slots[list(cells)], allowed[list(cells)])
+    used = sorted({abs(literal) for _, clause in rows for literal in clause})
     number = {old: new for new, old in enumerate(used, start=1)}
-    renamed = (
-        tuple(number[abs(x)] if x > 0 else -number[abs(x)] for x in clause) for clause in clauses_
+    return Contradiction(
+        tuple(cells),
+        tuple(old - 1 for old in used),
+        tuple(
+            tuple(number[abs(x)] if x > 0 else -number[abs(x)] for x in clause)
+            for _, clause in rows
+        ),
+        tuple(cells[row] for row, _ in rows),
+        smallest,
     )
-    return Contradiction(tuple(cells), tuple(old - 1 for old in used), tuple(renamed), smallest)
 
 
 class Selecting:

@@ -15,11 +15,10 @@ from certify.mesh.realized import embedded
 from certify.mesh.signs import Numbers, numbers
 from certify.mesh.split.checking import require_split
 from certify.mesh.split.choices import Choices, Show, choices_of, corners
-from certify.mesh.split.clauses import whole
 from certify.mesh.split.contradictions import Contradiction, contradictions
 from certify.mesh.split.faces import NONE, Faces, faces_of
 from certify.mesh.split.kinds import Rows, signs_of, way_round
-from certify.mesh.split.solving import QUALITIES, numbers_of, solved
+from certify.mesh.split.solving import QUALITIES, numbers_of, solved, whole
 from certify.mesh.split.tetrahedra import (
     Shape,
     Tetrahedra,
