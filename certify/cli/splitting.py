@@ -28,6 +28,7 @@ from certify.cli.common import (
 from certify.printable import printable
 
 if TYPE_CHECKING:
+    from certify.mesh.signs import Floats
     from certify.mesh.split import Answer
     from certify.mesh.split.contradictions import Contradiction
     from certify.mesh.split.tetrahedra import Shape
@@ -84,6 +85,8 @@ def split(
 
     Exit code 1: no; or the mesh is not what it should be.
     """
+    from certify.kernel.evidence import Malformed
+
     folder = existing_root(root)
     with needing("mesh"):
         from certify.mesh.reading import BadMesh, read_mesh
@@ -100,6 +103,8 @@ def split(
     except BadMesh as error:
         message = str(error)
         fail(message if message.startswith(f"{mesh}: ") else f"{mesh}: {message}", code=1)
+    except Malformed as error:
+        fail(f"rejected: {error}", code=1)
     proofs = [_proof(own) for own in found.contradictions]
     if to is not None and found.tetrahedra is not None:
         _write(to, found)
@@ -238,8 +243,8 @@ def _print_table(found: Answer) -> None:
     )
 
 
-def _least(values: Sequence[float], form: str) -> str:
-    return format(min(values), form) if len(values) else "-"
+def _least(values: Floats, form: str) -> str:
+    return format(values.min(), form) if len(values) else "-"
 
 
 _ROWS: dict[str, Callable[[Shape], object]] = {

@@ -30,11 +30,11 @@ ROUNDS = 200
 
 @dataclass(frozen=True)
 class Contradiction:
-    """Cells that contradict each other.
+    """Cells that contradict each other. They are minimal.
 
     cells: in increasing order. quadrilaterals: that of each variable, from 1. formula: clauses that
-    say what the cells allow, unsatisfiable. owners: the cell of each clause. smallest: is that known?
-    Minimal they are.
+    say what the cells allow, unsatisfiable. owners: the cell of each clause. smallest: are they
+    known to be smallest?
     """
 
     cells: tuple[int, ...]

@@ -204,7 +204,7 @@ def _require_separate(
         return
     owners = np.concatenate([sides.max(axis=1)] * 4 + [their_sides.max(axis=1)])
     three = int(counts.argmax())
-    first, second = (names.name(owner) for owner in owners[number == three][:2])
+    first, second = (names.name(owner) for owner in np.sort(owners[number == three])[:2])
     raise BadMesh(
         f"a face of {first} and another face of {second} have the vertices "
         f"{_listed(rows[three])} in common: the mesh is not conforming"
