@@ -128,8 +128,8 @@ BAD = {
         [*COMMON, 12, 13, 14, 15],
     ],
     "hexahedron 1 and hexahedron 2 are on the same side of face": [
-        FIRST,
-        [SECOND[i] for i in MIRROR],
+        SECOND,
+        [*COMMON, 12, 13, 14, 15],
     ],
     "hexahedron 1 and hexahedron 2 have": [FIRST, [*COMMON[:2], *COMMON[:1:-1], 12, 13, 14, 15]],
     "another face of hexahedron 2 have the vertices": [FIRST, [*COMMON[:3], 12, 13, 14, 15, 16]],
@@ -203,7 +203,7 @@ def trying_all(points: Any, cells: Any) -> bool:
         own = set()
         for diagonals in (b for b, yes in zip(BOUNDARIES, filled, strict=True) if yes):
             cut = [frozenset(row[v - 1] for v in diagonal) for diagonal in diagonals]
-            faces = {quad: d for quad in quads for d in cut if d < quad and quad <= set(row)}
+            faces = {quad: d for quad in quads for d in cut if d < quad <= set(row)}
             own.add(frozenset((q, d) for q, d in faces.items() if quads[q] == 2))
         ways.append([dict(cut) for cut in own])
     return _extends({}, ways)

@@ -45,7 +45,9 @@ def neighbours(vertex: int) -> list[int]:
 def test_bounds_are_bounds(placement: Placement) -> None:
     points = exact(placement)
     least, most = jacobian_bounds(points)
-    assert least <= most <= min(jacobian_at(points, place) for place in product(STEPS[::4], repeat=3))
+    assert (
+        least <= most <= min(jacobian_at(points, place) for place in product(STEPS[::4], repeat=3))
+    )
     assert all(least <= jacobian_at(points, place) for place in GRID)
 
 

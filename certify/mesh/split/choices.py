@@ -9,7 +9,7 @@ The best filling is the one whose least dihedral angle is largest, by floating-p
 boundary tetrahedra a hexahedron is filled only where it cannot be without.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -81,18 +81,20 @@ def choices_of(
         show: Is told what is done, how much of how much.
 
     Raises:
-        BadMesh: A cell is inside out, or a tetrahedron is flat.
+        BadMesh: A cell is inside out.
     """
     shape = (faces.number, len(BOUNDARIES))
     arrays = Arrays(
         np.full(shape, WITHOUT, np.int16), np.zeros(shape, np.uint8), np.zeros(shape, np.float32)
     )
+    own_root = root or default_root()
     for kind, rows in faces.cells.items():
         for part in _parts(len(rows)):
             own = slice(faces.start(kind) + part.start, faces.start(kind) + part.stop)
             taken = Arrays(arrays.best[own], arrays.laid[own], arrays.quality[own])
-            _FILLED[kind](points, rows[part], faces.turns[own], taken, root or default_root())
-            _require_right_way(points, kind, rows[part], part.start, taken, root or default_root())
+            _FILLED[kind](points, rows[part], faces.turns[own], taken, own_root)
+            if kind != "tetra":
+                _require_not_mirrored(points, kind, rows[part], part.start, taken, own_root)
             if show:
                 show("filling cells", own.stop, faces.number)
     bits = np.uint64(1) << np.arange(len(BOUNDARIES), dtype=np.uint64)
@@ -235,36 +237,32 @@ _FILLED: dict[str, Callable[[Any, Rows, Rows, Arrays, Path], None]] = {
 }
 
 
-def _require_right_way(
+def require_right_way(points: NDArray[Any], cells: Mapping[str, Rows]) -> None:
+    """Raise BadMesh if all corners of a cell are negative, or a tetrahedron is flat."""
+    for kind, rows in cells.items():
+        found = corners(points, kind, rows)
+        if kind == "tetra" and (found == 0).any():
+            raise BadMesh(f"tetra {int((found == 0).argmax()) + 1} is flat")
+        _require_none(kind, np.flatnonzero((found < 0).all(axis=1)))
+
+
+def _require_not_mirrored(
     points: NDArray[Any], kind: str, rows: Rows, start: int, taken: Arrays, root: Path
 ) -> None:
-    """Raise BadMesh if a cell that cannot be filled is inside out, or a tetrahedron is flat."""
-    if kind == "tetra":
-        signs = orientations(points, rows)
-        if (signs == 0).any():
-            raise BadMesh(f"tetra {start + int((signs == 0).argmax()) + 1} is flat")
-        bad: Booleans = signs < 0
-    else:
-        bad = np.zeros(len(rows), np.bool_)
-        empty = np.flatnonzero((taken.best == WITHOUT).all(axis=1))
-        if len(empty):
-            bad[empty] = _inside_out(points, kind, rows[empty], root)
-    if bad.any():
-        more = int(bad.sum()) - 1
+    """Raise BadMesh if a cell cannot be filled, but its mirror image can."""
+    empty = np.flatnonzero((taken.best == WITHOUT).all(axis=1))
+    signs = -signs_of(points, kind, rows[empty])
+    found = realized(signs, root) if kind == "hexahedron" else realized_fillings(kind, signs)
+    _require_none(kind, start + empty[found.any(axis=1)])
+
+
+def _require_none(kind: str, inside_out: Rows) -> None:
+    if len(inside_out):
+        more = f" (and {len(inside_out) - 1} more)" if len(inside_out) > 1 else ""
         raise BadMesh(
-            f"{kind} {start + int(bad.argmax()) + 1} is inside out"
-            + (f", and {more} more" if more else "")
-            + ": its vertices are in the order of its mirror image"
+            f"{kind} {inside_out[0] + 1}{more} is inside out: its vertices are in the order of its "
+            "mirror image"
         )
-
-
-def _inside_out(points: NDArray[Any], kind: str, rows: Rows, root: Path) -> Booleans:
-    """Which cells are so: all corners are negative, or their mirror images can be filled."""
-    mirrored = -signs_of(points, kind, rows)
-    found = realized(mirrored, root) if kind == "hexahedron" else realized_fillings(kind, mirrored)
-    negative = (corners(points, kind, rows) < 0).all(axis=1)
-    out: Booleans = np.logical_or(found.any(axis=1), negative)
-    return out
 
 
 _CORNERS = {

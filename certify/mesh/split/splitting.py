@@ -14,10 +14,10 @@ from certify.kernel.certificate import PATTERN_NAMES
 from certify.mesh.realized import embedded
 from certify.mesh.signs import Numbers, numbers
 from certify.mesh.split.checking import require_split
-from certify.mesh.split.choices import Choices, Show, choices_of, corners
+from certify.mesh.split.choices import Choices, Show, choices_of, corners, require_right_way
 from certify.mesh.split.contradictions import Contradiction, contradictions
 from certify.mesh.split.faces import NONE, Faces, faces_of
-from certify.mesh.split.kinds import Rows, signs_of, way_round
+from certify.mesh.split.kinds import WIDTHS, Rows, signs_of, way_round
 from certify.mesh.split.solving import QUALITIES, numbers_of, solved, whole
 from certify.mesh.split.tetrahedra import (
     Shape,
@@ -138,11 +138,19 @@ def split(
     if quality not in QUALITIES:
         raise ValueError(f"unknown quality {quality!r}; it must be one of {', '.join(QUALITIES)}")
     given = numbers(points)
+    if not any(map(len, cells.values())):
+        raise ValueError("there are no cells")
     if given.ndim != 2 or given.shape[1] != 3:
         raise ValueError(f"the array has the shape {given.shape} instead of (n, 3)")
-    own = {kind: np.asarray(rows, np.int64) for kind, rows in cells.items()}
+    own = {kind: np.asarray(rows, np.int64) for kind, rows in cells.items() if len(rows)}
+    for kind, rows in own.items():
+        if kind not in WIDTHS or rows.ndim != 2 or rows.shape[1] != WIDTHS[kind]:
+            raise ValueError(f"{kind} cells of the shape {rows.shape} are unknown")
+        if rows.min() < 0 or rows.max() >= len(given):
+            raise ValueError(f"a {kind} has a vertex that does not exist")
     if "wedge" in own:
         own["wedge"] = way_round(given, own["wedge"])
+    require_right_way(given, own)
     faces = faces_of(own)
     choices = choices_of(given, faces, root, show)
     empty = choices.allowed == 0
