@@ -66,7 +66,8 @@ def require_split(
             _require_volume(given, rows, own, ordered[low:high] - start, kind, cuts)
             surfaces.append(_faces(kind, rows, cuts))
         start += len(rows)
-    _require_conforming(tetrahedra, np.concatenate(surfaces))
+    triangles, faces = (np.concatenate(parts) for parts in zip(*surfaces, strict=True))
+    _require_conforming(tetrahedra, triangles, faces)
 
 
 def _require_filled(
@@ -181,44 +182,52 @@ def _halves(kind: str, cut: int) -> Rows:
     ).reshape(-1, 2, 3)
 
 
-def _faces(kind: str, rows: Rows, cuts: Rows) -> Rows:
-    """Return the triangles of the surfaces of cells, seen counterclockwise from inside."""
-    one, other = (rows[:, _halves(kind, cut)] for cut in (0, 1))
-    halves = np.where(cuts[:, :, None, None] == 1, other, one)
-    triangles = rows[:, np.array(TRIANGLES[kind], np.int64).reshape(-1, 3)]
-    return np.concatenate([halves.reshape(-1, 3), triangles.reshape(-1, 3)])
+def _faces(kind: str, rows: Rows, cuts: Rows) -> tuple[Rows, Rows]:
+    """Return the triangles of the surfaces of cells, and the face of which each is part.
 
-
-def _require_conforming(tetrahedra: Rows, surfaces: Rows) -> None:
-    """Require 3: a triangle inside a cell is in two tetrahedra, one of a surface in as many cells.
-
-    surfaces: the triangles of the surfaces of all cells, as often as cells have them.
+    The triangles are counterclockwise seen from inside, all halves of quadrilaterals first. A face
+    is a row of four vertices, the last of a triangle being -1.
     """
+    quads = rows[:, np.array(QUADRILATERALS[kind], np.int64).reshape(-1, 4)]
+    one, other = (rows[:, _halves(kind, cut)] for cut in (0, 1))
+    halves = np.where(cuts[:, :, None, None] == 1, other, one).reshape(-1, 3)
+    triangles = rows[:, np.array(TRIANGLES[kind], np.int64).reshape(-1, 3)].reshape(-1, 3)
+    padded = np.column_stack([triangles, np.full(len(triangles), -1)])
+    faces = np.concatenate([np.repeat(quads.reshape(-1, 4), 2, axis=0), padded])
+    return np.concatenate([halves, triangles]), faces
+
+
+def _require_conforming(tetrahedra: Rows, triangles: Rows, faces: Rows) -> None:
+    """Require 3: a triangle inside a cell is in two tetrahedra, part of a face in as many as cells.
+
+    triangles: those of the surfaces of all cells, as often as cells have them; faces: theirs.
+    """
+    _, face = _numbered(np.sort(faces, axis=1))
+    cells = np.bincount(face)[face] // np.where((faces >= 0).all(axis=1), 2, 1)
     solid = np.sort(tetrahedra[:, [*combinations(range(4), 3)]].reshape(-1, 3), axis=1)
-    rows = np.concatenate([solid, np.sort(surfaces, axis=1)])
-    _, number = np.unique(_packed(rows), axis=0, return_inverse=True)
-    number = number.ravel()
-    times = np.bincount(number[: len(solid)], minlength=number.max() + 1)
-    cells = np.bincount(number[len(solid) :], minlength=number.max() + 1)
-    if times.max() > 2:
+    rows = np.concatenate([solid, np.sort(triangles, axis=1)])
+    total, number = _numbered(rows)
+    times = np.bincount(number[: len(solid)], minlength=total)
+    expected = np.full(total, 2)
+    expected[number[len(solid) :]] = cells
+    if (times > 2).any():
         index = int((times[number] > 2).argmax())
         raise NotSplit(f"triangle {_listed(rows[index])} lies in three tetrahedra")
-    wrong = np.where(cells == 0, times != 2, times != cells)
-    if wrong.any():
-        index = int(wrong[number].argmax())
+    if (times != expected).any():
+        index = int((times != expected)[number].argmax())
         raise NotSplit(f"triangle {_listed(rows[index])} does not have a tetrahedron on each side")
+
+
+def _numbered(rows: Rows) -> tuple[int, Rows]:
+    """Return how many different rows there are, and a number for each row."""
+    if rows.max(initial=0) < 1 << 21 and rows.shape[1] == 3:
+        rows = rows[:, 0] << 42 | rows[:, 1] << 21 | rows[:, 2]
+    found, number = np.unique(rows, axis=0, return_inverse=True)
+    return len(found), number.ravel()
 
 
 def _listed(row: Rows) -> str:
     return " ".join(str(vertex + 1) for vertex in row.tolist())
-
-
-def _packed(rows: Rows) -> Rows:
-    """Return rows of three vertices as single numbers, if these are small enough."""
-    if rows.max() >= 1 << 21:
-        return rows
-    packed: Rows = rows[:, 0] << 42 | rows[:, 1] << 21 | rows[:, 2]
-    return packed
 
 
 def _require_volume(
@@ -228,7 +237,7 @@ def _require_volume(
     whole = _whole(points)
     a, b, c, d = (whole[tetrahedra[:, i]] for i in range(4))
     inside = np.add.reduceat(_determinants(b - a, c - a, d - a), np.flatnonzero(_first(owners)))
-    surface = _faces(kind, rows, cuts)
+    surface, _ = _faces(kind, rows, cuts)
     halves = 2 * len(QUADRILATERALS[kind]) * len(rows)
     apex = whole[rows[:, 0]]
     enclosed = np.zeros(len(rows), object)

@@ -130,7 +130,9 @@ def clauses(slots: Rows, allowed: Words) -> Iterator[tuple[Rows, Rows]]:
 
     Clauses of one length come together. A cell comes as often as it has clauses.
     """
-    excluded, number = np.unique(whole(slots) & ~allowed, return_inverse=True)
+    used = whole(slots)
+    every = np.uint64(2**64 - 1) // used  # the bits of no quadrilateral do not matter
+    excluded, number = np.unique((used & ~allowed) * every, return_inverse=True)
     cubes, words, wider = _cubes()
     found = np.empty((len(excluded), _EVERY), np.int64)
     _cover(excluded, words, wider, found)
