@@ -1,12 +1,28 @@
-"""Meshes to try: grids, warped ones, mixed ones, and others that are no good."""
+"""Meshes to try: grids, warped ones, mixed ones; and what trying everything says of them."""
 
+from collections import Counter
 from collections.abc import Sequence
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from certify.kernel.embedding import NotRealized, require_realization
+from certify.kernel.hexahedron import BOUNDARIES, FACETS
+from certify.mesh.realized import fillable_at_all
+from certify.mesh.signs import signs
+
 Cells = dict[str, NDArray[np.int64]]
+
+LAID = (536, 8, 6, 2, 1, 1)
+"""A mesh that cannot be split without boundary tetrahedra."""
+
+RING = (3870, 10, 5, 3, 3, 1)
+"""A mesh in which four cells contradict each other, and no three."""
+
+NO = [(157, 10, 7, 2, 1, 1), (9, 10, 6, 2, 2, 2), (43, 10, 6, 2, 2, 2), RING]
+YES = [(1, 10, 0, 2, 2, 2), (1, 10, 3, 3, 3, 3), (2, 10, 4, 3, 3, 3), (4, 10, 5, 4, 4, 4), LAID]
 
 
 def grid(*sizes: int) -> tuple[NDArray[np.float64], Cells]:
@@ -75,3 +91,38 @@ def schoenhardt(turn: float) -> NDArray[np.float64]:
     low = np.column_stack([np.cos(angles), np.sin(angles), np.zeros(3)])
     angles = angles + np.radians(turn)
     return np.concatenate([low, np.column_stack([np.cos(angles), np.sin(angles), np.ones(3)])])
+
+
+def exact(points: Any) -> Any:
+    return [tuple(map(Fraction, point)) for point in points.tolist()]
+
+
+def realizes(oriented: Any, all_signs: Any) -> bool:
+    try:
+        require_realization(oriented, all_signs)
+    except NotRealized:
+        return False
+    return True
+
+
+def trying_all(points: Any, cells: Any) -> bool:
+    """Is there a split, by trying all diagonals of all quadrilaterals that are not outside?"""
+    rows = cells["hexahedron"]
+    quads = Counter(frozenset(row[v - 1] for v in f) for row in rows.tolist() for f in FACETS)
+    ways = []
+    for row, filled in zip(rows.tolist(), fillable_at_all(signs(points[rows])), strict=True):
+        own = set()
+        for diagonals in (b for b, yes in zip(BOUNDARIES, filled, strict=True) if yes):
+            cut = [frozenset(row[v - 1] for v in diagonal) for diagonal in diagonals]
+            faces = {quad: d for quad in quads for d in cut if d < quad <= set(row)}
+            own.add(frozenset((q, d) for q, d in faces.items() if quads[q] == 2))
+        ways.append([dict(cut) for cut in own])
+    return _extends({}, ways)
+
+
+def _extends(chosen: dict[Any, Any], ways: list[list[dict[Any, Any]]]) -> bool:
+    return not ways or any(
+        _extends({**chosen, **cut}, ways[1:])
+        for cut in ways[0]
+        if all(chosen.get(quad, diagonal) == diagonal for quad, diagonal in cut.items())
+    )
