@@ -90,6 +90,7 @@ def split(
     folder = existing_root(root)
     with needing("mesh"):
         from certify.mesh.reading import BadMesh, read_mesh
+        from certify.mesh.split import NotSplit
         from certify.mesh.split import split as answer
         from certify.mesh.split.solving import QUALITIES
     if quality not in QUALITIES:
@@ -103,7 +104,7 @@ def split(
     except BadMesh as error:
         message = str(error)
         fail(message if message.startswith(f"{mesh}: ") else f"{mesh}: {message}", code=1)
-    except Malformed as error:
+    except (Malformed, NotSplit) as error:
         fail(f"rejected: {error}", code=1)
     proofs = [_proof(own) for own in found.contradictions]
     if to is not None and found.tetrahedra is not None:
