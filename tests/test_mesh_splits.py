@@ -241,6 +241,17 @@ def test_mixed_meshes_are_split(seed: int) -> None:
     assert counts[answer.faces.start("pyramid")] >= 2
 
 
+@pytest.mark.parametrize("quality", ["greedy", "best", "none"])
+def test_tetrahedra_alone_stay_what_they_are(quality: str) -> None:
+    points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]])
+    cells = {"tetra": np.array([[0, 1, 2, 3], [1, 2, 3, 4]])}
+    answer = split(points, cells, quality)
+    by_definition(points, cells, answer)
+    assert answer.tetrahedra
+    assert answer.tetrahedra.vertices.tolist() == cells["tetra"].tolist()
+    assert answer.by_template.disagreements == 0
+
+
 def test_wedges_that_no_diagonals_fill_are_named() -> None:
     points = schoenhardt(175)
     answer = split(points, {"wedge": np.arange(6)[None]})

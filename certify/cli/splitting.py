@@ -193,10 +193,14 @@ def _print(mesh: Path, found: Answer, proofs: Sequence[str]) -> None:
         "without further vertices"
     )
     click.echo()
+    from certify.mesh.split.contradictions import MANY
+
     if found.unfillable:
         _print_unfillable(found)
     for own, proof in zip(found.contradictions, proofs, strict=True):
         _print_contradiction(found, own, proof)
+    if len(proofs) == MANY:
+        click.echo(f"no more than {MANY} such sets are looked for; there may be others")
     click.echo()
     _print_table(found)
 
@@ -239,8 +243,8 @@ def _print_table(found: Answer) -> None:
         f"is the cone of that vertex. {_beyond(found)}"
     )
     print_wrapped(
-        "By template: each hexahedron becomes six tetrahedra around the diagonal from its first "
-        "vertex to its seventh."
+        "By template: all cells of a kind are cut alike, hexahedra into six tetrahedra around the "
+        "diagonal from their first vertex to their seventh."
     )
 
 

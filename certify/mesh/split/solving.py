@@ -185,8 +185,8 @@ def solve(slots: Rows, allowed: Words, total: int, start: Booleans | None = None
 
 def numbers_of(slots: Rows, cut: Booleans) -> Rows:
     """Return the number of each cell."""
-    bits = np.where(slots < 0, 0, ~cut[slots]).astype(np.int64)
-    out: Rows = (bits << np.arange(SLOTS)).sum(axis=1)
+    bits = ~np.append(cut, True)[slots]  # the one that NONE leads to is the last
+    out: Rows = (bits.astype(np.int64) << np.arange(SLOTS)).sum(axis=1)
     return out
 
 
