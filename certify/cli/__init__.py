@@ -1,7 +1,7 @@
 """The command line: parse, call, print. What is true is decided in certify/kernel alone.
 
 One module for each group of commands: :mod:`checking`, :mod:`evidence`, :mod:`exporting`,
-:mod:`auditing`, :mod:`reading`, :mod:`drawing`, :mod:`meshing`, :mod:`counting`,
+:mod:`auditing`, :mod:`reading`, :mod:`drawing`, :mod:`meshing`, :mod:`splitting`, :mod:`counting`,
 :mod:`doubting`, :mod:`building`; what they share is in :mod:`common`.
 """
 
@@ -26,6 +26,7 @@ from certify.cli import (
     exporting,
     meshing,
     reading,
+    splitting,
 )
 from certify.cli.common import fail
 
@@ -109,6 +110,7 @@ for command in (
     drawing.draw,
     drawing.atlas,
     exporting.export,
+    splitting.split,
     meshing.triangulate,
     meshing.name,
     counting.census,
