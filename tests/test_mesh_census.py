@@ -18,9 +18,8 @@ from certify.kernel.certificate import PATTERN_NAMES, Yes, read_certificate
 from certify.kernel.evidence import Evidence
 from certify.mesh.census import Census, NotAMesh, count, hexahedra, streamed
 from certify.mesh.census.blocks import blocks
-from certify.mesh.census.curve import along_the_curve, places
 from certify.mesh.census.journal import NotItsJournal
-from certify.mesh.census.prepare import prepare
+from certify.mesh.census.prepare import along_the_curve, places, prepare
 from certify.mesh.realized import labelled
 from tests import brute_census
 from tests.commands import CHECKOUT
