@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from certify.mesh.census.rings import NEXT, Ints
-from certify.mesh.compiled import borrowing, compiled
+from certify.mesh.compiled import borrowing, compiled, interruptible
 from certify.mesh.signs import Floats, numbers, orientations
 
 CHUNK = 1 << 20
@@ -64,7 +64,11 @@ def prepare(points: ArrayLike, tetrahedra: ArrayLike) -> Mesh:
         NotAMesh: A tetrahedron is none, is flat, or has a triangle on the same side as another.
         ValueError: An array has another shape, or what is in it are no finite numbers.
     """
-    given, cells = numbers(points), _cells(tetrahedra)
+    with interruptible():
+        return _prepared(numbers(points), _cells(tetrahedra))
+
+
+def _prepared(given: NDArray[Any], cells: NDArray[Any]) -> Mesh:
     if given.ndim != 2 or given.shape[1] != 3:
         raise ValueError(f"the points have the shape {given.shape} instead of (n, 3)")
     if given.dtype == object:
