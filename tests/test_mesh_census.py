@@ -2,6 +2,9 @@
 
 import doctest
 import json
+import signal
+import subprocess
+import sys
 from collections import Counter
 from fractions import Fraction
 from itertools import product
@@ -18,9 +21,8 @@ from certify.kernel.certificate import PATTERN_NAMES, Yes, read_certificate
 from certify.kernel.evidence import Evidence
 from certify.mesh.census import Census, NotAMesh, count, hexahedra, streamed
 from certify.mesh.census.blocks import blocks
-from certify.mesh.census.curve import along_the_curve, places
 from certify.mesh.census.journal import NotItsJournal
-from certify.mesh.census.prepare import prepare
+from certify.mesh.census.prepare import along_the_curve, places, prepare
 from certify.mesh.realized import labelled
 from tests import brute_census
 from tests.commands import CHECKOUT
@@ -312,6 +314,33 @@ def test_a_journal_goes_on(many: tuple[Array, Array, Census], tmp_path: Path) ->
     assert [done for _, done, _ in told] == [2, 3, 4, 5]
     assert journal.read_bytes().startswith(kept)
     assert count(points, cells, size=100, journal=journal) == whole
+
+
+def test_an_interrupt_is_one_while_compiled_code_runs(tmp_path: Path) -> None:
+    """Whatever Numba makes of it; and what was done is kept."""
+    journal = tmp_path / "journal"
+    program = (
+        "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)\n"
+        "import sys; from pathlib import Path; from scipy.spatial import Delaunay\n"
+        "from certify.mesh.census import count; import numpy\n"
+        "points = numpy.random.default_rng(0).random((40000, 3))\n"
+        "cells = Delaunay(points).simplices\n"
+        "try:\n"
+        "    count(points, cells, size=100, journal=Path(sys.argv[1]), report=print)\n"
+        "except KeyboardInterrupt: sys.exit(130)\n"
+    )
+    own = subprocess.Popen(
+        [sys.executable, "-c", program, str(journal)],
+        stdout=subprocess.PIPE,
+        cwd=CHECKOUT,
+        text=True,
+    )
+    assert own.stdout
+    for line in own.stdout:
+        if line.startswith("searching 3 "):
+            own.send_signal(signal.SIGINT)
+    assert own.wait() == 130
+    assert journal.read_bytes().count(b"\n") >= 4
 
 
 def test_the_journal_is_what_the_census_says(tmp_path: Path) -> None:

@@ -1,6 +1,7 @@
 """Ways to compile: by numba, with floating-point operations as they are written."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any, TypeVar, cast
 
 import numba
@@ -25,3 +26,20 @@ def borrowing(function: F) -> F:
     options = {"cache": True, "fastmath": False, "error_model": "numpy", "_nrt": False}
     options["forceinline"] = True
     return cast("F", numba.njit(**options)(function))
+
+
+@contextmanager
+def interruptible() -> Iterator[None]:
+    """Let an interrupt be one that comes while a compiled function runs.
+
+    It is noticed when Numba makes Python objects of the result, and Numba says SystemError then.
+    """
+    try:
+        yield
+    except SystemError as error:
+        cause: BaseException | None = error
+        while cause and not isinstance(cause, KeyboardInterrupt):
+            cause = cause.__cause__ or cause.__context__
+        if cause:
+            raise KeyboardInterrupt from None
+        raise

@@ -20,6 +20,7 @@ from certify.mesh.census.blocks import Block, Hexahedra, blocks, least, number_o
 from certify.mesh.census.journal import Counts, opened
 from certify.mesh.census.prepare import Mesh, prepare
 from certify.mesh.census.running import mapping
+from certify.mesh.compiled import interruptible
 from certify.mesh.instances import instances
 
 BLOCK = 10_000
@@ -83,7 +84,7 @@ def count(
     mesh, root = prepare(points, tetrahedra), root or default_root()
     total = number_of_blocks(mesh, size)
     done, keeping = opened(journal, {"mesh": mesh.digest, "size": size})
-    with keeping as keep, mapping(jobs, scheduler) as mapped:
+    with interruptible(), keeping as keep, mapping(jobs, scheduler) as mapped:
         rest = blocks(mesh, size, root, frozenset(done))
         _tell(report, len(done), total)
         for number, counts in (
@@ -133,7 +134,7 @@ def streamed(
     """
     mesh = prepare(points, tetrahedra)
     total = number_of_blocks(mesh, size)
-    with mapping(jobs, scheduler) as mapped:
+    with interruptible(), mapping(jobs, scheduler) as mapped:
         _tell(report, 0, total)
         own = blocks(mesh, size, root or default_root())
         for done, found in enumerate(mapped(_least, own), start=1):
