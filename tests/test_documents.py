@@ -38,7 +38,14 @@ from certify.kernel.triangulation import label, orientation
 from certify.kernel.validity import corners, edges, sections
 
 ROOT = Path(__file__).resolve().parents[1]
-DOCUMENTS = ("README.md", "CHECKING.md", "FORMAT.md", "docs/API.md", "docs/outside-checkers.md")
+DOCUMENTS = (
+    "README.md",
+    "CHECKING.md",
+    "FORMAT.md",
+    "docs/API.md",
+    "docs/meshes.md",
+    "docs/outside-checkers.md",
+)
 COPIED = (
     "certify",
     "certificates",

@@ -101,16 +101,21 @@ def triangulate(
     if to is not None:
         _require_table(to)
     with needing("mesh"):
+        from certify.kernel.evidence import Malformed
         from certify.mesh.hexahedra import Hexahedra
         from certify.mesh.reading import BadMesh, read_hexahedra
+        from certify.mesh.realized import labelled
         from certify.mesh.records import boundaries_with, record
     try:
         points, names = read_hexahedra(file)
+        labelled(folder)
     except BadMesh as error:
         fail(str(error), code=1)
+    except Malformed as error:
+        fail(f"rejected: {error}", code=1)
     if cell is not None:
         if not 1 <= cell <= len(points):
-            fail(f"{file} has no hexahedron {cell}, but {plural(len(points), 'hexahedron')}", 2)
+            fail(f"there is no hexahedron {cell} in {file}; the last is {len(points)}", 2)
         points, names = points[cell - 1 : cell], names[cell - 1 : cell]
     wanted = boundaries_with(diagonals)
     if to is not None or len(points) > 1:
@@ -170,7 +175,7 @@ def _print_one(found: Record, restricted: bool) -> None:
         )
     asked = " with these diagonals" if restricted else ""
     print_wrapped(
-        f"{found['realized']} of the 6,966 labelled triangulations are realized{asked}, "
+        f"realized{asked}: {found['realized']} of the 6,966 labelled triangulations, "
         f"in {plural(len(found['patterns']), 'pattern')}"
     )
     if found["patterns"]:
@@ -185,10 +190,10 @@ def _validity(found: Record) -> str:
     if found["valid"] == "undecided":
         return "undecided, whether the Jacobian is positive on the closed cube"
     corners, edges = found["failing_corners"], found["failing_edges"]
-    places = [f"vertices {' '.join(map(str, corners))}"] if corners else []
-    places += [f"edges {' '.join(edges)}"] if edges else []
-    where = " and the ".join(places) or "inside or on a facet, though at no vertex and on no edge"
-    return f"not valid, the Jacobian is not positive {'at the ' if places else ''}{where}"
+    places = [f"at {' '.join(map(str, corners))}"] if corners else []
+    places += [f"on {' '.join(edges)}"] if edges else []
+    where = " and ".join(places) or "inside or on a facet, though at every vertex and on every edge"
+    return f"not valid, the Jacobian is not positive {where}"
 
 
 def _between(least: Fraction, most: Fraction) -> str:
@@ -226,16 +231,14 @@ def _print_boundaries(boundaries: Record) -> None:
     more: list[str] = boundaries["with_boundary_tetrahedra"]
     impossible: list[str] = boundaries["impossible"]
     total = len(filled) + len(more) + len(impossible)
-    print_wrapped(f"they fill {len(filled)} of {plural(total, 'triangulated boundary')}")
+    print_wrapped(f"boundaries filled by these: {len(filled)} of {total}")
     if more:
-        print_wrapped(
-            f"{len(more)} more can be filled with tetrahedra on the four vertices of a facet"
-        )
+        print_wrapped(f"filled only with tetrahedra on the four vertices of a facet: {len(more)}")
         _print_columns(more)
     if impossible:
         print_wrapped(
-            f"{len(impossible)} have no triangulation without further points, because there are "
-            "none but the 6,966 (theorem patterns, replayed by certify check-all)"
+            f"impossible without further points: {len(impossible)}; there are no triangulations "
+            "but the 6,966 (theorem patterns, replayed by certify check-all)"
         )
         _print_columns(impossible)
 
@@ -252,7 +255,7 @@ PER_LINE = 3
 def _print_summary(summary: Record, worst: Sequence[Record]) -> None:
     """Print what many hexahedra have in common, and the worst of them."""
     click.echo(
-        f"{plural(summary['hexahedra'], 'hexahedron')}: {summary['valid']} valid, "
+        f"{summary['hexahedra']} hexahedra: {summary['valid']} valid, "
         f"{summary['not_valid']} not valid, {summary['undecided']} undecided, "
         f"{summary['mirrored']} mirrored"
     )
@@ -316,8 +319,10 @@ def name(file: Path, root: Path | None, as_json: bool) -> None:
         found = readings(given.cells, given.facets, folder)
     except BadMesh as error:
         fail(str(error), code=1)
-    except (NotNamed, Malformed) as error:
+    except NotNamed as error:
         fail(f"{file}: {error}", code=1)
+    except Malformed as error:
+        fail(f"rejected: {error}", code=1)
     if as_json:
         print_json({"patterns": [_reading_record(own) for own in found]})
     else:

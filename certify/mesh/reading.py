@@ -203,10 +203,10 @@ def _from_csv(text: str) -> list[Fraction]:
     rows = _lines(text)
     if rows and not any(map(_NUMBER.fullmatch, rows[0][1])):
         del rows[0]  # a heading
-    widths = {len(words) for _, words in rows}
+    width = 24 if rows and len(rows[0][1]) == 24 else 3
     for line, words in rows:
-        if len(words) not in (3, 24) or len(widths) > 1:
-            raise BadMesh(f"line {line} has {len(words)} numbers, and not 3, nor 24 as all others")
+        if len(words) != width:
+            raise BadMesh(f"line {line} has {len(words)} numbers instead of {width}")
     found = [_number(word, f"line {line}") for line, words in rows for word in words]
     _require_whole_hexahedra(len(found), f"{len(rows)} lines")
     return found
