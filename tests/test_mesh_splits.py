@@ -18,7 +18,7 @@ from certify.mesh.reading import BadMesh
 from certify.mesh.realized import fillable_at_all, labelled
 from certify.mesh.shapes import least_dihedral_angles
 from certify.mesh.signs import signs
-from certify.mesh.split import Answer, NotSplit, require_split, split
+from certify.mesh.split import Answer, NotSplit, contradictions, require_split, split
 from certify.mesh.split.choices import _qualities, choices_of
 from certify.mesh.split.faces import faces_of
 from certify.mesh.split.solving import numbers_of
@@ -198,6 +198,18 @@ def test_a_ring_of_four_contradicts_itself() -> None:
     assert len(found.cells) == 4
 
 
+def test_nothing_is_called_smallest_that_is_not_known_to_be(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(contradictions, "LARGE", 0)
+    (found,) = split(*warped(*RING)).contradictions
+    assert not found.smallest
+    monkeypatch.setattr(contradictions, "LARGE", 10**6)
+    monkeypatch.setattr(contradictions, "ROUNDS", 1)
+    (found,) = split(*warped(*RING)).contradictions
+    assert not found.smallest
+
+
 def test_two_contradictions_have_no_common_cell() -> None:
     points, cells = warped(*NO[0])
     twice = np.concatenate([points, points + 1000])
@@ -233,8 +245,7 @@ def test_mixed_meshes_are_split(seed: int) -> None:
     assert set(cells) == {"hexahedron", "wedge", "pyramid", "tetra"}
     answer = split(points, cells)
     assert answer.tetrahedra
-    turned = answer.faces.cells
-    require_split(points, turned, answer.tetrahedra.vertices, answer.tetrahedra.cells)
+    by_definition(points, cells, answer)
     assert answer.faces.name(answer.faces.number - 1) == "tetra 1"
     counts = np.bincount(answer.tetrahedra.cells)
     assert counts[-1] == 1

@@ -80,8 +80,8 @@ def split(
     depend on --quality: "greedy" makes them large; with "best" no other diagonals have a larger
     least angle; "none" does not look at them. No file is replaced.
 
-    No: the cells that no tetrahedra fill, or a smallest set of cells that contradict each other,
-    with a proof that the kernel has replayed.
+    No: the cells that no tetrahedra fill, and cells that contradict each other, none of them
+    needlessly, with a proof that the kernel has replayed.
 
     Exit code 1: no; or the mesh is not what it should be.
     """

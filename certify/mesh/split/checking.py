@@ -40,7 +40,7 @@ def require_split(
 
     Args:
         points: An array (n, 3) of integers, floating-point numbers or Fractions.
-        cells: Kind -> rows of vertices, in the order of kinds.py.
+        cells: Kind -> rows of vertices, in the order of kinds.py; a wedge may be either way round.
         tetrahedra: An array (t, 4).
         owners: The cell of each, counted from 0 through the kinds in the order of WIDTHS.
     """
@@ -252,6 +252,8 @@ def _require_volume(
             a, b, c = (whole[part[:, i]].reshape(len(rows), -1, 3) for i in range(3))
             own = apex[:, None]
             enclosed = enclosed + _determinants(b - a, c - a, own - a).sum(axis=1)
+    if kind == "wedge":
+        enclosed = np.abs(enclosed)  # it may be either way round
     if (inside != enclosed).any():
         index = int((inside != enclosed).argmax())
         raise NotSplit(f"{kind} {index + 1}: its tetrahedra have another volume")
