@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 
 from certify.kernel.chirotope import chirotope
-from certify.kernel.hexahedron import BOUNDARIES
+from certify.kernel.hexahedron import BOUNDARIES, FACETS
 from certify.kernel.refutation import replay
 from certify.mesh.files import positive
 from certify.mesh.instances import QUADRUPLE_INDEX
 from certify.mesh.reading import BadMesh
-from certify.mesh.realized import fillable_at_all, labelled
+from certify.mesh.realized import embedded, fillable_at_all, labelled, realized
 from certify.mesh.shapes import least_dihedral_angles
 from certify.mesh.signs import signs
 from certify.mesh.split import Answer, NotSplit, contradictions, require_split, split
@@ -124,6 +124,36 @@ def test_angles_are_those_of_certify_mesh_shapes() -> None:
     fours = points[:, np.array([*combinations(range(8), 4)])].reshape(-1, 4, 3)
     angles = least_dihedral_angles(fours).reshape(50, 70)
     assert np.allclose(_qualities("hexahedron", points), angles)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_the_best_filling_is_the_best_of_all(seed: int) -> None:
+    points, cells = warped(seed, 10, 6, 1, 1, 1)
+    own = points[cells["hexahedron"]]
+    chirotopes, faces = signs(own), faces_of(cells)
+    angles = _qualities("hexahedron", own)[0]
+    inside: dict[int, float] = {}
+    for instance, yes in zip(labelled(), realized(chirotopes)[0], strict=True):
+        if yes:
+            least = min(angles[QUADRUPLE_INDEX[four]] for four in instance.tetrahedra)
+            inside[instance.boundary] = max(inside.get(instance.boundary, 0), least)
+    arrays = choices_of(points, faces).arrays
+    for outer, yes in enumerate(embedded(chirotopes)[0]):
+        options = []
+        for inner, least in inside.items():
+            laid = [f for f in range(6) if (outer ^ inner) >> (5 - f) & 1]
+            fours = [tuple(sorted(FACETS[f])) for f in laid]
+            swaps = [sum(a > b for a, b in combinations(FACETS[f], 2)) for f in laid]
+            up = [chirotopes[0, QUADRUPLE_INDEX[four]] for four in fours]
+            fine = [
+                sign * (-1) ** swap == (-1) ** (outer >> (5 - f) & 1)
+                for f, sign, swap in zip(laid, up, swaps, strict=True)
+            ]
+            if yes and all(fine):
+                options.append(min([least, *(angles[QUADRUPLE_INDEX[four]] for four in fours)]))
+        place = 0, outer ^ int(faces.turns[0])
+        assert (arrays.best[place] >= 0) == bool(options)
+        assert arrays.quality[place] == pytest.approx(max(options, default=0), rel=1e-6)
 
 
 @pytest.mark.parametrize("seed", range(8))
