@@ -8,6 +8,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from pysat.examples.optux import OptUx
+from pysat.formula import WCNF
 
 from certify.kernel.chirotope import chirotope
 from certify.kernel.hexahedron import BOUNDARIES, FACETS
@@ -21,7 +23,7 @@ from certify.mesh.signs import signs
 from certify.mesh.split import Answer, NotSplit, contradictions, require_split, split
 from certify.mesh.split.choices import _qualities, choices_of
 from certify.mesh.split.faces import faces_of
-from certify.mesh.split.solving import numbers_of
+from certify.mesh.split.solving import formula, numbers_of
 from certify.mesh.split.tetrahedra import by_numbers, by_template
 from certify.search.refutations import lrat, refute
 from tests.meshes import (
@@ -221,6 +223,20 @@ def test_contradicting_cells_are_minimal_and_their_clauses_true(mesh: Any) -> No
 def _is_true(answer: Answer, quads: Any, literal: int, cut: Any) -> bool:
     least, _, opposite, _ = answer.faces.quadrilaterals[quads[abs(literal) - 1]].tolist()
     return (frozenset((least, opposite)) in cut) == (literal > 0)
+
+
+@pytest.mark.parametrize("mesh", NO)
+def test_no_smaller_set_is_found_by_optux(mesh: Any) -> None:
+    answer = split(*warped(*mesh))
+    slots = answer.faces.slots
+    first = len(answer.faces.quadrilaterals) + 1
+    formula_ = WCNF()
+    for cell, clause in formula(slots, answer.choices.allowed):
+        formula_.append([*clause, -first - cell])
+    for cell in range(len(slots)):
+        formula_.append([first + cell], weight=1)
+    with OptUx(formula_) as optux:
+        assert len(optux.compute()) == len(answer.contradictions[0].cells)
 
 
 def test_a_ring_of_four_contradicts_itself() -> None:
