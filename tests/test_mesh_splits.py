@@ -1,7 +1,6 @@
 """What is found of meshes: splits, contradictions, cells that cannot be filled."""
 
 from collections import Counter
-from collections.abc import Callable
 from fractions import Fraction
 from itertools import combinations
 from typing import Any
@@ -11,10 +10,8 @@ import pytest
 from pysat.examples.optux import OptUx
 from pysat.formula import WCNF
 
-from certify.kernel.chirotope import chirotope
 from certify.kernel.hexahedron import BOUNDARIES, FACETS
 from certify.kernel.refutation import replay
-from certify.mesh.files import positive
 from certify.mesh.instances import QUADRUPLE_INDEX
 from certify.mesh.reading import BadMesh
 from certify.mesh.realized import embedded, fillable_at_all, labelled, realized
@@ -31,10 +28,8 @@ from tests.meshes import (
     NO,
     RING,
     YES,
-    exact,
     grid,
     mixed,
-    realizes,
     schoenhardt,
     shuffled,
     trying_all,
@@ -343,63 +338,3 @@ def test_a_wedge_between_two_others_may_contradict_them() -> None:
 def _numbers(answer: Answer, bits: int, quads: int) -> Any:
     cut = np.array([bits >> quad & 1 for quad in range(quads)], np.bool_)
     return numbers_of(answer.faces.slots, cut)
-
-
-# What is no split is refused.
-
-
-def spoiled(change: Callable[[Any, Any, Any], Any]) -> str:
-    points, cells = warped(1, 10, 3, 2, 2, 2)
-    own = split(points, cells).tetrahedra
-    assert own
-    vertices, owners = change(own.vertices.copy(), own.cells.copy(), cells)
-    with pytest.raises(NotSplit) as raised:
-        require_split(points, cells, vertices, owners)
-    return str(raised.value)
-
-
-def test_spoiled_splits_are_refused() -> None:
-    swapped = [0, 1, 3, 2]
-    assert "tetrahedron 1 is inverted" in spoiled(lambda t, o, _: (t[:, swapped], o))
-    assert "not every cell has tetrahedra" in spoiled(lambda t, o, _: (t[o > 0], o[o > 0]))
-    more = spoiled(lambda t, o, _: (np.concatenate([t, t[:1]]), np.concatenate([o, [9]])))
-    assert "a tetrahedron belongs to no cell" in more
-    assert "do not have its faces" in spoiled(lambda t, o, _: (t[1:], o[1:]))
-    assert "with another vertex" in spoiled(lambda t, o, _: (t, np.roll(o, 1)))
-    doubled = spoiled(lambda t, o, _: (np.concatenate([t, t]), np.concatenate([o, o])))
-    assert "do not have its faces" in doubled
-
-
-def test_a_split_of_each_cell_alone_is_refused_as_not_conforming() -> None:
-    points, cells = warped(1, 10, 3, 2, 2, 2)
-    parts = [split(points, {"hexahedron": row[None]}).tetrahedra for row in cells["hexahedron"]]
-    vertices = np.concatenate([part.vertices for part in parts if part])
-    owners = np.concatenate([part.cells + i for i, part in enumerate(parts) if part])
-    with pytest.raises(NotSplit, match="does not have a tetrahedron on each side"):
-        require_split(points, cells, vertices, owners)
-
-
-def test_overlapping_tetrahedra_are_refused() -> None:
-    """Positive ones with a surface that crosses itself: triangulations that are no realization."""
-    refused = 0
-    for seed in range(400):
-        points = np.random.default_rng(seed).integers(-3, 4, (8, 3)).astype(float)
-        found = signs(points[None])[0]
-        for own in labelled()[::37]:
-            places = [(QUADRUPLE_INDEX[four], sign) for four, sign in own.signs]
-            if all(found[place] == sign for place, sign in places):
-                rows = [positive(tuple(v - 1 for v in four), sign) for four, sign in own.signs]
-                realized_ = realizes(dict(own.signs), chirotope(exact(points)))
-                try:
-                    require_split(
-                        points,
-                        {"hexahedron": np.arange(8)[None]},
-                        np.array(rows),
-                        np.zeros(len(rows), np.int64),
-                    )
-                except NotSplit:
-                    assert not realized_
-                    refused += 1
-                else:
-                    assert realized_
-    assert refused
