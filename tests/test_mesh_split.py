@@ -18,6 +18,7 @@ from certify.mesh.reading import BadMesh
 from certify.mesh.realized import labelled
 from certify.mesh.signs import signs
 from certify.mesh.split import NotSplit, require_split, split
+from certify.mesh.split.checking import _require_filled, _require_volume
 from certify.mesh.split.kinds import (
     QUADRILATERALS,
     fillings,
@@ -243,6 +244,19 @@ def test_a_split_of_each_cell_alone_is_refused_as_not_conforming() -> None:
     owners = np.concatenate([part.cells + i for i, part in enumerate(parts) if part])
     with pytest.raises(NotSplit, match="does not have a tetrahedron on each side"):
         require_split(points, cells, vertices, owners)
+
+
+@pytest.mark.parametrize("kind", ["hexahedron", "wedge", "pyramid"])
+def test_another_volume_is_refused(kind: str) -> None:
+    cube = grid(1, 1, 1)[0][[0, 4, 6, 2, 1, 5, 7, 3]]
+    points = {"hexahedron": cube, "wedge": schoenhardt(0), "pyramid": cube[:5]}[kind]
+    rows = np.arange(len(points))[None]
+    own = split(points, {kind: rows}).tetrahedra
+    assert own
+    cuts = _require_filled(points, kind, rows, own.vertices, own.cells)
+    _require_volume(points, rows, own.vertices, own.cells, kind, cuts)
+    with pytest.raises(NotSplit, match=f"{kind} 1: its tetrahedra have another volume"):
+        _require_volume(points, rows, own.vertices[1:], own.cells[1:], kind, cuts)
 
 
 def test_overlapping_tetrahedra_are_refused() -> None:

@@ -234,6 +234,16 @@ def test_no_smaller_set_is_found_by_optux(mesh: Any) -> None:
         assert len(optux.compute()) == len(answer.contradictions[0].cells)
 
 
+@pytest.mark.parametrize("meshes", [(RING, NO[1]), (NO[1], RING)])
+def test_the_smallest_set_comes_first_wherever_the_solver_starts(meshes: Any) -> None:
+    parts = [warped(*mesh) for mesh in meshes]
+    points = np.concatenate([parts[0][0], parts[1][0] + 1000])
+    shifted = parts[1][1]["hexahedron"] + len(parts[0][0])
+    cells = {"hexahedron": np.concatenate([parts[0][1]["hexahedron"], shifted])}
+    found = split(points, cells).contradictions
+    assert [(len(own.cells), own.smallest) for own in found] == [(3, True), (4, False)]
+
+
 def test_a_ring_of_four_contradicts_itself() -> None:
     (found,) = split(*warped(*RING)).contradictions
     assert len(found.cells) == 4
