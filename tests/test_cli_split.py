@@ -101,8 +101,10 @@ def test_yes_is_printed_beside_two_recipes(tmp_path: Path) -> None:
 
 
 def test_the_record_has_what_is_printed(yes: str) -> None:
-    code, record = run_json(CHECKOUT, "split", yes, "--quality", "best")
+    out = str(Path(yes).with_name("out.vtu"))
+    code, record = run_json(CHECKOUT, "split", yes, "--quality", "best", "--to", out)
     assert code == 0
+    assert record["written"] == out
     assert record["split"] == "yes"
     assert record["cells"] == {"hexahedron": 6, "wedge": 4, "pyramid": 6, "tetra": 1}
     assert record["tetrahedra"]["inverted_or_flat"] == 0
