@@ -1,6 +1,7 @@
 """Meshes are split wherever trying all diagonals finds a split, and only there."""
 
 from collections import Counter
+from collections.abc import Callable
 from itertools import combinations, product
 from typing import Any
 
@@ -11,8 +12,13 @@ from hypothesis import strategies as st
 
 from certify.kernel.chirotope import chirotope
 from certify.kernel.hexahedron import simplex
+from certify.mesh.files import positive
+from certify.mesh.instances import QUADRUPLE_INDEX
 from certify.mesh.reading import BadMesh
-from certify.mesh.split import require_split, split
+from certify.mesh.realized import labelled
+from certify.mesh.signs import signs
+from certify.mesh.split import NotSplit, require_split, split
+from certify.mesh.split.checking import _require_filled, _require_volume
 from certify.mesh.split.kinds import (
     QUADRILATERALS,
     fillings,
@@ -204,3 +210,76 @@ def test_random_meshes_are_split_iff_some_diagonals_do(seed: int, size: Any) -> 
     assert (answer.tetrahedra is not None) == trying_all(points, cells)
     if answer.tetrahedra:
         require_split(points, cells, answer.tetrahedra.vertices, answer.tetrahedra.cells)
+
+
+# What is no split is refused.
+
+
+def spoiled(change: Callable[[Any, Any, Any], Any]) -> str:
+    points, cells = warped(1, 10, 3, 2, 2, 2)
+    own = split(points, cells).tetrahedra
+    assert own
+    vertices, owners = change(own.vertices.copy(), own.cells.copy(), cells)
+    with pytest.raises(NotSplit) as raised:
+        require_split(points, cells, vertices, owners)
+    return str(raised.value)
+
+
+def test_spoiled_splits_are_refused() -> None:
+    swapped = [0, 1, 3, 2]
+    assert "tetrahedron 1 is inverted" in spoiled(lambda t, o, _: (t[:, swapped], o))
+    assert "not every cell has tetrahedra" in spoiled(lambda t, o, _: (t[o > 0], o[o > 0]))
+    more = spoiled(lambda t, o, _: (np.concatenate([t, t[:1]]), np.concatenate([o, [9]])))
+    assert "a tetrahedron belongs to no cell" in more
+    assert "do not have its faces" in spoiled(lambda t, o, _: (t[1:], o[1:]))
+    assert "with another vertex" in spoiled(lambda t, o, _: (t, np.roll(o, 1)))
+    doubled = spoiled(lambda t, o, _: (np.concatenate([t, t]), np.concatenate([o, o])))
+    assert "do not have its faces" in doubled
+
+
+def test_a_split_of_each_cell_alone_is_refused_as_not_conforming() -> None:
+    points, cells = warped(1, 10, 3, 2, 2, 2)
+    parts = [split(points, {"hexahedron": row[None]}).tetrahedra for row in cells["hexahedron"]]
+    vertices = np.concatenate([part.vertices for part in parts if part])
+    owners = np.concatenate([part.cells + i for i, part in enumerate(parts) if part])
+    with pytest.raises(NotSplit, match="does not have a tetrahedron on each side"):
+        require_split(points, cells, vertices, owners)
+
+
+@pytest.mark.parametrize("kind", ["hexahedron", "wedge", "pyramid"])
+def test_another_volume_is_refused(kind: str) -> None:
+    cube = grid(1, 1, 1)[0][[0, 4, 6, 2, 1, 5, 7, 3]]
+    points = {"hexahedron": cube, "wedge": schoenhardt(0), "pyramid": cube[:5]}[kind]
+    rows = np.arange(len(points))[None]
+    own = split(points, {kind: rows}).tetrahedra
+    assert own
+    cuts = _require_filled(points, kind, rows, own.vertices, own.cells)
+    _require_volume(points, rows, own.vertices, own.cells, kind, cuts)
+    with pytest.raises(NotSplit, match=f"{kind} 1: its tetrahedra have another volume"):
+        _require_volume(points, rows, own.vertices[1:], own.cells[1:], kind, cuts)
+
+
+def test_overlapping_tetrahedra_are_refused() -> None:
+    """Positive ones with a surface that crosses itself: triangulations that are no realization."""
+    refused = 0
+    for seed in range(400):
+        points = np.random.default_rng(seed).integers(-3, 4, (8, 3)).astype(float)
+        found = signs(points[None])[0]
+        for own in labelled()[::37]:
+            places = [(QUADRUPLE_INDEX[four], sign) for four, sign in own.signs]
+            if all(found[place] == sign for place, sign in places):
+                rows = [positive(tuple(v - 1 for v in four), sign) for four, sign in own.signs]
+                realized_ = realizes(dict(own.signs), chirotope(exact(points)))
+                try:
+                    require_split(
+                        points,
+                        {"hexahedron": np.arange(8)[None]},
+                        np.array(rows),
+                        np.zeros(len(rows), np.int64),
+                    )
+                except NotSplit:
+                    assert not realized_
+                    refused += 1
+                else:
+                    assert realized_
+    assert refused

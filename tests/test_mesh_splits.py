@@ -1,27 +1,26 @@
 """What is found of meshes: splits, contradictions, cells that cannot be filled."""
 
 from collections import Counter
-from collections.abc import Callable
 from fractions import Fraction
 from itertools import combinations
 from typing import Any
 
 import numpy as np
 import pytest
+from pysat.examples.optux import OptUx
+from pysat.formula import WCNF
 
-from certify.kernel.chirotope import chirotope
-from certify.kernel.hexahedron import BOUNDARIES
+from certify.kernel.hexahedron import BOUNDARIES, FACETS
 from certify.kernel.refutation import replay
-from certify.mesh.files import positive
 from certify.mesh.instances import QUADRUPLE_INDEX
 from certify.mesh.reading import BadMesh
-from certify.mesh.realized import fillable_at_all, labelled
+from certify.mesh.realized import embedded, fillable_at_all, labelled, realized
 from certify.mesh.shapes import least_dihedral_angles
 from certify.mesh.signs import signs
-from certify.mesh.split import Answer, NotSplit, require_split, split
+from certify.mesh.split import Answer, NotSplit, contradictions, require_split, split
 from certify.mesh.split.choices import _qualities, choices_of
 from certify.mesh.split.faces import faces_of
-from certify.mesh.split.solving import numbers_of
+from certify.mesh.split.solving import formula, numbers_of
 from certify.mesh.split.tetrahedra import by_numbers, by_template
 from certify.search.refutations import lrat, refute
 from tests.meshes import (
@@ -29,10 +28,8 @@ from tests.meshes import (
     NO,
     RING,
     YES,
-    exact,
     grid,
     mixed,
-    realizes,
     schoenhardt,
     shuffled,
     trying_all,
@@ -126,6 +123,36 @@ def test_angles_are_those_of_certify_mesh_shapes() -> None:
     assert np.allclose(_qualities("hexahedron", points), angles)
 
 
+@pytest.mark.parametrize("seed", range(20))
+def test_the_best_filling_is_the_best_of_all(seed: int) -> None:
+    points, cells = warped(seed, 10, 6, 1, 1, 1)
+    own = points[cells["hexahedron"]]
+    chirotopes, faces = signs(own), faces_of(cells)
+    angles = _qualities("hexahedron", own)[0]
+    inside: dict[int, float] = {}
+    for instance, yes in zip(labelled(), realized(chirotopes)[0], strict=True):
+        if yes:
+            least = min(angles[QUADRUPLE_INDEX[four]] for four in instance.tetrahedra)
+            inside[instance.boundary] = max(inside.get(instance.boundary, 0), least)
+    arrays = choices_of(points, faces).arrays
+    for outer, yes in enumerate(embedded(chirotopes)[0]):
+        options = []
+        for inner, least in inside.items():
+            laid = [f for f in range(6) if (outer ^ inner) >> (5 - f) & 1]
+            fours = [tuple(sorted(FACETS[f])) for f in laid]
+            swaps = [sum(a > b for a, b in combinations(FACETS[f], 2)) for f in laid]
+            up = [chirotopes[0, QUADRUPLE_INDEX[four]] for four in fours]
+            fine = [
+                sign * (-1) ** swap == (-1) ** (outer >> (5 - f) & 1)
+                for f, sign, swap in zip(laid, up, swaps, strict=True)
+            ]
+            if yes and all(fine):
+                options.append(min([least, *(angles[QUADRUPLE_INDEX[four]] for four in fours)]))
+        place = 0, outer ^ int(faces.turns[0])
+        assert (arrays.best[place] >= 0) == bool(options)
+        assert arrays.quality[place] == pytest.approx(max(options, default=0), rel=1e-6)
+
+
 @pytest.mark.parametrize("seed", range(8))
 def test_best_is_the_largest_least_angle_of_all_diagonals(seed: int) -> None:
     points, cells = warped(seed, 10, 4, 2, 1, 1)
@@ -193,9 +220,45 @@ def _is_true(answer: Answer, quads: Any, literal: int, cut: Any) -> bool:
     return (frozenset((least, opposite)) in cut) == (literal > 0)
 
 
+@pytest.mark.parametrize("mesh", NO)
+def test_no_smaller_set_is_found_by_optux(mesh: Any) -> None:
+    answer = split(*warped(*mesh))
+    slots = answer.faces.slots
+    first = len(answer.faces.quadrilaterals) + 1
+    formula_ = WCNF()
+    for cell, clause in formula(slots, answer.choices.allowed):
+        formula_.append([*clause, -first - cell])
+    for cell in range(len(slots)):
+        formula_.append([first + cell], weight=1)
+    with OptUx(formula_) as optux:
+        assert len(optux.compute()) == len(answer.contradictions[0].cells)
+
+
+@pytest.mark.parametrize("meshes", [(RING, NO[1]), (NO[1], RING)])
+def test_the_smallest_set_comes_first_wherever_the_solver_starts(meshes: Any) -> None:
+    parts = [warped(*mesh) for mesh in meshes]
+    points = np.concatenate([parts[0][0], parts[1][0] + 1000])
+    shifted = parts[1][1]["hexahedron"] + len(parts[0][0])
+    cells = {"hexahedron": np.concatenate([parts[0][1]["hexahedron"], shifted])}
+    found = split(points, cells).contradictions
+    assert [(len(own.cells), own.smallest) for own in found] == [(3, True), (4, False)]
+
+
 def test_a_ring_of_four_contradicts_itself() -> None:
     (found,) = split(*warped(*RING)).contradictions
     assert len(found.cells) == 4
+
+
+def test_nothing_is_called_smallest_that_is_not_known_to_be(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(contradictions, "LARGE", 0)
+    (found,) = split(*warped(*RING)).contradictions
+    assert not found.smallest
+    monkeypatch.setattr(contradictions, "LARGE", 10**6)
+    monkeypatch.setattr(contradictions, "ROUNDS", 1)
+    (found,) = split(*warped(*RING)).contradictions
+    assert not found.smallest
 
 
 def test_two_contradictions_have_no_common_cell() -> None:
@@ -233,8 +296,7 @@ def test_mixed_meshes_are_split(seed: int) -> None:
     assert set(cells) == {"hexahedron", "wedge", "pyramid", "tetra"}
     answer = split(points, cells)
     assert answer.tetrahedra
-    turned = answer.faces.cells
-    require_split(points, turned, answer.tetrahedra.vertices, answer.tetrahedra.cells)
+    by_definition(points, cells, answer)
     assert answer.faces.name(answer.faces.number - 1) == "tetra 1"
     counts = np.bincount(answer.tetrahedra.cells)
     assert counts[-1] == 1
@@ -286,63 +348,3 @@ def test_a_wedge_between_two_others_may_contradict_them() -> None:
 def _numbers(answer: Answer, bits: int, quads: int) -> Any:
     cut = np.array([bits >> quad & 1 for quad in range(quads)], np.bool_)
     return numbers_of(answer.faces.slots, cut)
-
-
-# What is no split is refused.
-
-
-def spoiled(change: Callable[[Any, Any, Any], Any]) -> str:
-    points, cells = warped(1, 10, 3, 2, 2, 2)
-    own = split(points, cells).tetrahedra
-    assert own
-    vertices, owners = change(own.vertices.copy(), own.cells.copy(), cells)
-    with pytest.raises(NotSplit) as raised:
-        require_split(points, cells, vertices, owners)
-    return str(raised.value)
-
-
-def test_spoiled_splits_are_refused() -> None:
-    swapped = [0, 1, 3, 2]
-    assert "tetrahedron 1 is inverted" in spoiled(lambda t, o, _: (t[:, swapped], o))
-    assert "not every cell has tetrahedra" in spoiled(lambda t, o, _: (t[o > 0], o[o > 0]))
-    more = spoiled(lambda t, o, _: (np.concatenate([t, t[:1]]), np.concatenate([o, [9]])))
-    assert "a tetrahedron belongs to no cell" in more
-    assert "do not have its faces" in spoiled(lambda t, o, _: (t[1:], o[1:]))
-    assert "with another vertex" in spoiled(lambda t, o, _: (t, np.roll(o, 1)))
-    doubled = spoiled(lambda t, o, _: (np.concatenate([t, t]), np.concatenate([o, o])))
-    assert "do not have its faces" in doubled
-
-
-def test_a_split_of_each_cell_alone_is_refused_as_not_conforming() -> None:
-    points, cells = warped(1, 10, 3, 2, 2, 2)
-    parts = [split(points, {"hexahedron": row[None]}).tetrahedra for row in cells["hexahedron"]]
-    vertices = np.concatenate([part.vertices for part in parts if part])
-    owners = np.concatenate([part.cells + i for i, part in enumerate(parts) if part])
-    with pytest.raises(NotSplit, match="does not have a tetrahedron on each side"):
-        require_split(points, cells, vertices, owners)
-
-
-def test_overlapping_tetrahedra_are_refused() -> None:
-    """Positive ones with a surface that crosses itself: triangulations that are no realization."""
-    refused = 0
-    for seed in range(400):
-        points = np.random.default_rng(seed).integers(-3, 4, (8, 3)).astype(float)
-        found = signs(points[None])[0]
-        for own in labelled()[::37]:
-            places = [(QUADRUPLE_INDEX[four], sign) for four, sign in own.signs]
-            if all(found[place] == sign for place, sign in places):
-                rows = [positive(tuple(v - 1 for v in four), sign) for four, sign in own.signs]
-                realized_ = realizes(dict(own.signs), chirotope(exact(points)))
-                try:
-                    require_split(
-                        points,
-                        {"hexahedron": np.arange(8)[None]},
-                        np.array(rows),
-                        np.zeros(len(rows), np.int64),
-                    )
-                except NotSplit:
-                    assert not realized_
-                    refused += 1
-                else:
-                    assert realized_
-    assert refused

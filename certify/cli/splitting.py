@@ -80,8 +80,8 @@ def split(
     depend on --quality: "greedy" makes them large; with "best" no other diagonals have a larger
     least angle; "none" does not look at them. No file is replaced.
 
-    No: the cells that no tetrahedra fill, or a smallest set of cells that contradict each other,
-    with a proof that the kernel has replayed.
+    No: the cells that no tetrahedra fill, and cells that contradict each other, none of them
+    needlessly, with a proof that the kernel has replayed.
 
     Exit code 1: no; or the mesh is not what it should be.
     """
@@ -107,18 +107,20 @@ def split(
     except (Malformed, NotSplit) as error:
         fail(f"rejected: {error}", code=1)
     proofs = [_proof(own) for own in found.contradictions]
-    if to is not None and found.tetrahedra is not None:
-        _write(to, found)
+    written = to if found.tetrahedra is not None else None
+    if written is not None:
+        _write(written, found)
     if proof is not None and proofs:
         _write_proofs(proof, mesh, found, proofs)
     if as_json:
         from certify.mesh.split.reporting import record
 
-        print_json(record(str(mesh), found, proofs, quality))
+        own = record(str(mesh), found, proofs, quality)
+        print_json(own | {"written": None if written is None else str(written)})
     else:
         _print(mesh, found, proofs)
-        if to is not None and found.tetrahedra is not None:
-            click.echo(f"written, read back and compared: {printable(str(to))}")
+        if written is not None:
+            click.echo(f"written, read back and compared: {printable(str(written))}")
         if proof is not None and proofs:
             click.echo(f"formulas and proofs: {printable(str(proof))}")
         elif proof is not None:

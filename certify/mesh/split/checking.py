@@ -40,7 +40,7 @@ def require_split(
 
     Args:
         points: An array (n, 3) of integers, floating-point numbers or Fractions.
-        cells: Kind -> rows of vertices, in the order of kinds.py.
+        cells: Kind -> rows of vertices, in the order of kinds.py; a wedge may be either way round.
         tetrahedra: An array (t, 4).
         owners: The cell of each, counted from 0 through the kinds in the order of WIDTHS.
     """
@@ -220,10 +220,16 @@ def _require_conforming(tetrahedra: Rows, triangles: Rows, faces: Rows) -> None:
 
 def _numbered(rows: Rows) -> tuple[int, Rows]:
     """Return how many different rows there are, and a number for each row."""
-    if rows.max(initial=0) < 1 << 21 and rows.shape[1] == 3:
-        rows = rows[:, 0] << 42 | rows[:, 1] << 21 | rows[:, 2]
-    found, number = np.unique(rows, axis=0, return_inverse=True)
-    return len(found), number.ravel()
+    keys = [*(rows + 1).T]
+    if rows.max(initial=0) < (1 << 21) - 1:  # three vertices fit into one key, which is faster
+        keys[:3] = [keys[0] << 42 | keys[1] << 21 | keys[2]]
+    order = np.lexsort(keys[::-1])
+    new = np.zeros(len(rows), np.bool_)
+    for key in keys:
+        new[1:] |= key[order][1:] != key[order][:-1]
+    number = np.empty(len(rows), np.int64)
+    number[order] = np.cumsum(new)
+    return int(number.max(initial=-1)) + 1, number
 
 
 def _listed(row: Rows) -> str:
@@ -246,6 +252,8 @@ def _require_volume(
             a, b, c = (whole[part[:, i]].reshape(len(rows), -1, 3) for i in range(3))
             own = apex[:, None]
             enclosed = enclosed + _determinants(b - a, c - a, own - a).sum(axis=1)
+    if kind == "wedge":
+        enclosed = np.abs(enclosed)  # it may be either way round
     if (inside != enclosed).any():
         index = int((inside != enclosed).argmax())
         raise NotSplit(f"{kind} {index + 1}: its tetrahedra have another volume")

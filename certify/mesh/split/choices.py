@@ -5,8 +5,7 @@ triangulations that its points realize; or one of these with boundary tetrahedra
 exchange the diagonals of their facets (certify/mesh/realized.py). There are no others (theorem
 ``patterns``). For a wedge and a pyramid all fillings are known (kinds.py).
 
-The best filling is the one whose least dihedral angle is largest, by floating-point figures. With
-boundary tetrahedra a hexahedron is filled only where it cannot be without.
+The best filling of all is the one whose least dihedral angle is largest, by floating-point figures.
 """
 
 from collections.abc import Callable, Iterator, Mapping
@@ -221,7 +220,7 @@ def _best_fillings(
     laid: NDArray[np.uint8],
     quality: NDArray[np.float32],
 ) -> None:
-    """Take for each choice the best realized triangulation, else the best with some laid on it.
+    """Take for each choice the best realized triangulation, be it with some laid on it.
 
     sides: signs of the tetrahedra on the facets, positive if one lies inside with the diagonal 0.
     """
@@ -241,7 +240,6 @@ def _best_fillings(
             bits = b ^ turns[h]
             if plain[b] != WITHOUT:
                 best[h, bits], quality[h, bits] = plain[b], value[b]
-                continue
             if not allowed[h, b]:
                 continue
             layable = 0
@@ -249,17 +247,18 @@ def _best_fillings(
                 bit = 1 << (5 - f)
                 if sides[h, f] == (-1 if b & bit else 1):
                     layable |= bit
-            for flipped in range(1, 64):
+            flipped = layable
+            while flipped:  # all sets of facets on which one can be laid
                 inner = b ^ flipped
-                if flipped & ~layable or plain[inner] == WITHOUT:
-                    continue
-                least = value[inner]
-                for f in range(6):
-                    if flipped & (1 << (5 - f)):
-                        least = min(least, angles[h, facet_quadruples[f]])
-                if best[h, bits] == WITHOUT or least > quality[h, bits]:
-                    best[h, bits], quality[h, bits] = plain[inner], least
-                    laid[h, bits] = flipped
+                if plain[inner] != WITHOUT:
+                    least = value[inner]
+                    for f in range(6):
+                        if flipped & (1 << (5 - f)):
+                            least = min(least, angles[h, facet_quadruples[f]])
+                    if best[h, bits] == WITHOUT or least > quality[h, bits]:
+                        best[h, bits], quality[h, bits] = plain[inner], least
+                        laid[h, bits] = flipped
+                flipped = (flipped - 1) & layable
 
 
 _FILLED: dict[str, Callable[[Any, Rows, Rows, Arrays, Path], None]] = {

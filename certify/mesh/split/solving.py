@@ -12,9 +12,8 @@ Any solution will do for a yes. Which one is found matters to the angles alone:
 - ``greedy``: the solver starts from the diagonal that looks better from both sides; then, as long
   as that helps, each cell takes that of its numbers with which the least angle of it and of its
   neighbours is largest. The result is no optimum.
-- ``best``: in addition, the least angle of the whole mesh is the largest that any choice of
-  diagonals reaches with the fillings of choices.py, compared as floating-point numbers. Thresholds
-  are tried by halving, each by the solver.
+- ``best``: in addition, the least angle of the whole mesh is the largest that any split reaches,
+  compared as floating-point numbers. Thresholds are tried by halving, each by the solver.
 """
 
 from collections.abc import Callable, Iterator
