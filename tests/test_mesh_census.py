@@ -2,6 +2,7 @@
 
 import doctest
 import json
+import os
 import signal
 import subprocess
 import sys
@@ -23,6 +24,7 @@ from certify.mesh.census import Census, NotAMesh, count, hexahedra, streamed
 from certify.mesh.census.blocks import blocks
 from certify.mesh.census.journal import NotItsJournal
 from certify.mesh.census.prepare import along_the_curve, places, prepare
+from certify.mesh.census.running import mapping
 from certify.mesh.realized import labelled
 from tests import brute_census
 from tests.commands import CHECKOUT
@@ -275,6 +277,11 @@ def test_processes_do_not_matter(many: tuple[Array, Array, Census]) -> None:
 
     assert count(points, cells, jobs=2, size=100, report=report) == whole
     assert told == [("searching", done, 5) for done in range(6)]
+
+
+def test_a_process_that_is_killed_is_told() -> None:
+    with pytest.raises(ChildProcessError, match="killed"), mapping(2) as mapped:
+        next(mapped(os._exit, [1]))
 
 
 def test_a_cluster_does_not_matter(many: tuple[Array, Array, Census]) -> None:

@@ -84,6 +84,7 @@ def count(
     mesh, root = prepare(points, tetrahedra), root or default_root()
     total = number_of_blocks(mesh, size)
     done, keeping = opened(journal, {"mesh": mesh.digest, "size": size})
+    _compile(root)
     with interruptible(), keeping as keep, mapping(jobs, scheduler) as mapped:
         rest = blocks(mesh, size, root, frozenset(done))
         _tell(report, len(done), total)
@@ -132,11 +133,12 @@ def streamed(
         ValueError: This is no mesh.
         ChildProcessError: One of the processes was killed.
     """
-    mesh = prepare(points, tetrahedra)
+    mesh, root = prepare(points, tetrahedra), root or default_root()
     total = number_of_blocks(mesh, size)
+    _compile(root)
     with interruptible(), mapping(jobs, scheduler) as mapped:
         _tell(report, 0, total)
-        own = blocks(mesh, size, root or default_root())
+        own = blocks(mesh, size, root)
         for done, found in enumerate(mapped(_least, own), start=1):
             yield found
             _tell(report, done, total)
@@ -173,6 +175,13 @@ def _patterns(root: Path) -> NDArray[np.int64]:
     """Return the place of the pattern of each labelled triangulation among the names."""
     place = {name: i for i, name in enumerate(PATTERN_NAMES)}
     return np.array([place[own.pattern] for own in instances(root)])
+
+
+def _compile(root: Path) -> None:
+    """Search a block of nothing: then processes find the search compiled, on disk at least."""
+    nothing = np.zeros((0, 3)), np.zeros((0, 4), np.int32), np.zeros(0, np.int64)
+    with interruptible():
+        _counted(Block(0, *nothing, 0, root))
 
 
 def _counted(block: Block) -> tuple[int, Counts]:
