@@ -41,13 +41,14 @@ def pool(jobs: int, work: str = "checks") -> Iterator[ProcessPoolExecutor]:
     Raises:
         ChildProcessError: One of the processes was killed.
     """
-    workers = ProcessPoolExecutor(min(jobs, MAX_JOBS), initializer=_obey_the_parent)
     try:
-        yield workers
+        workers = ProcessPoolExecutor(min(jobs, MAX_JOBS), initializer=_obey_the_parent)
+        try:
+            yield workers
+        finally:
+            workers.shutdown(cancel_futures=True)
     except BrokenProcessPool:
         raise ChildProcessError(f"a process that {work} was killed") from None
-    finally:
-        workers.shutdown(cancel_futures=True)
 
 
 def _obey_the_parent() -> None:
