@@ -79,6 +79,31 @@ Proof. unfold mix, sum4. coordinates. Qed.
 Lemma sum4_ext F G : (forall b c, F b c = G b c) -> sum4 F = sum4 G.
 Proof. intro h. unfold sum4. now rewrite !h. Qed.
 
+(** The derivatives of Definitions.v are what they are called: the map is affine in each variable, so
+    that a difference is the derivative times the step; and a corner is sent to its point. *)
+Ltac expand_map :=
+  unfold trilinear, weight, derivative_r, derivative_s, derivative_t, combination, minus, sum;
+  cbn [corner factor slope px py pz]; f_equal; ring.
+Definition scale (c : K) (a : point K) : point K := Point (c * px a) (c * py a) (c * pz a).
+Lemma difference_r r r' s t :
+  minus (trilinear p r' s t) (trilinear p r s t) = scale (r' - r) (derivative_r p r s t).
+Proof. unfold scale. expand_map. Qed.
+Lemma difference_s r s s' t :
+  minus (trilinear p r s' t) (trilinear p r s t) = scale (s' - s) (derivative_s p r s t).
+Proof. unfold scale. expand_map. Qed.
+Lemma difference_t r s t t' :
+  minus (trilinear p r s t') (trilinear p r s t) = scale (t' - t) (derivative_t p r s t).
+Proof. unfold scale. expand_map. Qed.
+Lemma corner_point v : let '(a, b, c) := corner v in
+  let number (b : bool) := if b then 1 else 0 in
+  trilinear p (number a) (number b) (number c) = p v.
+Proof.
+  destruct v; cbn [corner]; cbv zeta iota;
+    match goal with |- _ = p ?v => destruct (p v) as [x y z] eqn:e end;
+    unfold trilinear, weight, combination, sum; cbn [corner factor]; rewrite e; cbn [px py pz];
+    f_equal; ring.
+Qed.
+
 Ltac expand_derivative :=
   unfold mix, sum4, combination, sum; cbn [corner vertex_at slope px py pz]; f_equal;
   unfold minus; cbn [px py pz]; ring.

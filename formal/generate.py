@@ -3,9 +3,10 @@
     python3 generate.py MODULE [--root FOLDER]
 
 prints one module; the folder is the one that holds certificates/ and proofs/. Nothing that this
-program does needs to be trusted, but for one thing: that the tetrahedra in the module Catalogue are
-those of the certificates. Points and proofs are checked inside Coq, whoever made them. It shares
-no code with the Python package.
+program does needs to be trusted, but for one thing: that the module Catalogue says what the
+certificates say. Points and proofs are checked inside Coq, whoever made them. For sixteen patterns
+the folder proofs beside this file has other proofs, see NotValid.v. It shares no code with the
+Python package.
 """
 
 import argparse
