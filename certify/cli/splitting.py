@@ -89,6 +89,7 @@ def split(
 
     folder = existing_root(root)
     with needing("mesh"):
+        from certify.mesh.compiled import interruptible
         from certify.mesh.reading import BadMesh, read_mesh
         from certify.mesh.split import NotSplit
         from certify.mesh.split import split as answer
@@ -99,7 +100,7 @@ def split(
         _require_new(to)
     try:
         given = read_mesh(mesh)
-        with progress() as show:
+        with progress() as show, interruptible():
             found = answer(given.points, given.cells, quality, folder, show)
     except BadMesh as error:
         message = str(error)
