@@ -70,7 +70,7 @@ Show = Callable[[str, int, int], None]
     help="Keep what is done; with the same FILE an interrupted census goes on.",
 )
 @click.option(
-    "--block", type=click.IntRange(1), metavar="N", help="Vertices of a block (default 20000)."
+    "--block", type=click.IntRange(1), metavar="N", help="Vertices of a block (default 10000)."
 )
 @click.option(
     "--save",
