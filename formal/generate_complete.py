@@ -89,10 +89,7 @@ def completeness(root: Path, letter: str) -> str:
         definition(
             "images",
             "list (nat * list vertex)",
-            (
-                f"({place}%nat, {coq_list(f'V{v}' for v in s)})"
-                for place, s in images(root, letter)
-            ),
+            (f"({place}%nat, {coq_list(f'V{v}' for v in s)})" for place, s in images(root, letter)),
         ),
         f"Definition proof : list step := [\n  {steps[1:]}.\n",
     )

@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 import pytest
 from click.testing import CliRunner
 
-from certify import run as running
+from certify import processes
 from certify.cli import cli
 from certify.kernel import theorems
 from certify.kernel.certificate import PATTERN_NAMES, QUESTIONS
@@ -299,7 +299,7 @@ def test_processes_that_are_killed(root: Path, monkeypatch: pytest.MonkeyPatch) 
     def broken(*_: object, **__: object) -> None:
         raise BrokenProcessPool
 
-    monkeypatch.setattr(running, "ProcessPoolExecutor", broken)
+    monkeypatch.setattr(processes, "ProcessPoolExecutor", broken)
     line = "certify: a process that checks was killed\n"
     assert run(root, "check-all", "--jobs", "2") == (1, "", line)
 

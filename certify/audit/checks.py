@@ -16,6 +16,7 @@ from sympy.polys.rings import ring
 
 from certify import paper
 from certify.audit.examples import DENTED, IN_THE_PLANE, ON_A_SPHERE
+from certify.audit.samples import RANDOM, Sample
 from certify.graphs import edges
 from certify.kernel import names
 from certify.kernel.certificate import PATTERN_COUNTS
@@ -62,6 +63,7 @@ class Inputs(NamedTuple):
     on_a_sphere: tuple[Point, ...] = ON_A_SPHERE
     dented: tuple[Point, ...] = DENTED
     in_the_plane: tuple[tuple[tuple[int, int], ...], ...] = IN_THE_PLANE
+    random_samples: tuple[Sample, ...] = RANDOM
 
 
 Check: TypeAlias = Callable[[Inputs], bool]
@@ -311,5 +313,47 @@ def meshes_have_fewer_than_random_points(inputs: Inputs) -> bool:
     for _, vertices, row, _ in inputs.meshes:
         smaller = [found for points, found, _ in inputs.random_points if points <= vertices]
         if sum(row) >= sum(smaller[-1] if smaller else first[1]):
+            return False
+    return True
+
+
+# Our own samples of random points
+
+
+@check
+def table_4_lies_within_samples(inputs: Inputs) -> bool:
+    """Each row of Table 4 with ten or more samples here has its entries between their extremes.
+
+    But for one: with 3,000 points there are 5 patterns with seven tetrahedra in all samples, and
+    not 2.
+    """
+    outside = []
+    compared = 0
+    for points, row, _ in inputs.random_points:
+        found = [sample.row for sample in inputs.random_samples if sample.vertices == points]
+        if len(found) >= 10:
+            compared += 1
+            columns = zip(row, zip(*found, strict=True), strict=True)
+            outside += [(points, e, *c) for e, c in columns if not min(c) <= e <= max(c)]
+    return compared >= 4 and [(*own[:2], {*own[2:]}) for own in outside] == [(3_000, 2, {5})]
+
+
+@check
+def random_points_have_all_up_to_nine(inputs: Inputs) -> bool:
+    """In all twenty samples of 3,000 points there are all patterns with up to nine tetrahedra."""
+    found = [sample.row for sample in inputs.random_samples if sample.vertices == 3_000]
+    return len(found) == 20 and all(row[:5] == tuple(PATTERN_COUNTS.values())[:5] for row in found)
+
+
+@check
+def more_than_eleven_are_rare(inputs: Inputs) -> bool:
+    """Of hexahedra among equally many points at most two in 100,000 have more than 11 tetrahedra.
+
+    And in samples of each number of points there are some.
+    """
+    for points in {sample.vertices for sample in inputs.random_samples}:
+        own = [sample for sample in inputs.random_samples if sample.vertices == points]
+        rare, every = (sum(sample.occurrences(above) for sample in own) for above in (11, 0))
+        if not 0 < 50_000 * rare <= every:
             return False
     return True

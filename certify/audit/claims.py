@@ -36,9 +36,9 @@ class BadClaims(ValueError):
 class Claim:
     """One record of claims.toml: what the paper says where, a verdict, and the reasons for it.
 
-    amendment: what is true instead (corrected, or argued) or beyond it (strengthened); the reasons
-    are then reasons for the amendment. argument: a reason in words, which nothing computes.
-    undecided: why there is no verdict.
+    amendment: what is true instead (corrected, or argued), beyond it (strengthened), or in examples
+    (illustrated); the reasons are then reasons for the amendment. argument: a reason in words,
+    which nothing computes. undecided: why there is no verdict.
     """
 
     id: str
@@ -183,7 +183,7 @@ def _answers(texts: Sequence[str]) -> Iterator[str]:
 
 _RULES = {
     "computed": (COMPUTED, COMPUTED),
-    "amendment": (("corrected", "strengthened"), ("corrected", "strengthened", "argued")),
+    "amendment": (("corrected", "strengthened"), (*COMPUTED[1:], "argued")),
     "weight": (("corrected",), ("corrected",)),
     "argument": (("argued",), (*COMPUTED, "argued")),
     "undecided": ((UNDECIDED,), (UNDECIDED,)),

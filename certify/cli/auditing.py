@@ -105,10 +105,11 @@ def _print_finding(finding: Finding) -> None:
     weight = f" ({finding.weight})" if finding.weight else ""
     amended = ", and amended" if finding.verdict == "argued" and finding.amendment else ""
     click.echo(f"{finding.verdict}{amended}{weight}: {finding.id}")
+    amendment = "In examples" if finding.verdict == "illustrated" else "Amended"
     for text in (
         finding.place,
         f"Claim: {finding.claim}",
-        finding.amendment and f"Amended: {finding.amendment}",
+        finding.amendment and f"{amendment}: {finding.amendment}",
         f"Reasons: {_grouped(finding.reasons)}",
         finding.failed and f"Failed: {_grouped(finding.failed)}",
     ):

@@ -142,11 +142,12 @@ def _many(
     points: Any, names: Sequence[str], root: Path, wanted: Booleans, to: Path | None, as_json: bool
 ) -> None:
     """Look at many hexahedra: write or print a row for each, and print a summary."""
+    from certify.mesh.compiled import interruptible
     from certify.mesh.records import Summary, rows, write_table
     from certify.writing import written_to
 
     summary = Summary()
-    with progress() as show:
+    with progress() as show, interruptible():
         found = summary.over(rows(points, names, root, wanted, show))
         if to is not None:
             with written_to(to.parent) as scratch:

@@ -106,7 +106,7 @@ def _instances_of(pattern: str, tetrahedra: tuple[Simplex, ...]) -> Iterator[Ins
 
 def _carried(symmetry: tuple[int, ...], signs: dict[Simplex, int]) -> dict[Simplex, int]:
     """Return where a symmetry takes oriented tetrahedra; a reflection mirrors them."""
-    turned = _handedness(symmetry)
+    turned = handedness(symmetry)
     carried = {}
     for tetrahedron, sign in signs.items():
         moved = tuple(symmetry[vertex - 1] for vertex in tetrahedron)
@@ -115,7 +115,7 @@ def _carried(symmetry: tuple[int, ...], signs: dict[Simplex, int]) -> dict[Simpl
     return carried
 
 
-def _handedness(symmetry: tuple[int, ...]) -> int:
+def handedness(symmetry: tuple[int, ...]) -> int:
     """Return 1 for a rotation of the cube, -1 for a reflection, by what becomes of a corner."""
     corner, parity = sorted_with_sign(tuple(symmetry[vertex - 1] for vertex in (1, 2, 4, 5)))
     return parity * _CUBE[corner]

@@ -7,13 +7,14 @@ roads lead to the answer; each decides, or hands on:
 1. A filter. Let X be the largest difference of first coordinates along an edge, as computed, Y and
    Z likewise, and F = XYZ. A coefficient is the mean of at most eight determinants of edges, each a
    sum of six products. With u = 2^-53, as long as nothing over- or underflows, a product as
-   computed has at most 15 factors 1 + δ, |δ| <= u: three differences, two products, three sums in
-   the determinant, seven in the mean. So the coefficient's error is at most ((1+u)^15 - 1) 6F' for
-   the exact F', hence less than 92 u F. A halving replaces coefficients by means of them, which
-   keeps their error, and rounds twice numbers below 6.1 F in absolute value: it adds less than
-   12.3 u F. After at most HALVINGS = 30 halvings the error is below 461 u F, and that below
-   2^-44 F, also when this product is rounded. Nothing under- or overflows if the points are safe
-   (signs.py): all numbers are multiples of 2^-(876 + 3 + 60), and less than 2^910.
+   computed has at most 12 factors 1 + δ, |δ| <= u: three differences, two products, and sums, one
+   in a vector product, one of two of these, two in a scalar product, three of four of these. So the
+   coefficient's error is at most ((1+u)^12 - 1) 6F' for the exact F', hence less than 92 u F. A
+   halving replaces coefficients by means of them, which keeps their error, and rounds twice numbers
+   below 6.1 F in absolute value: it adds less than 12.3 u F. After at most HALVINGS = 30 halvings
+   the error is below 461 u F, and that below 2^-44 F, also when this product is rounded. Nothing
+   under- or overflows if the points are safe (signs.py): all numbers are multiples of
+   2^-(876 + 3 + 60), and less than 2^910.
 2. A filter without error. If all coordinates are multiples of a power of two, g, then everything
    after h halvings is a multiple of g^3 / (8 * 4^h), and at most 6 F: it is computed without error
    as long as their quotient is below 2^53.
@@ -26,7 +27,8 @@ roads lead to the answer; each decides, or hands on:
 from collections.abc import Iterator
 from fractions import Fraction
 from itertools import product
-from typing import Any, TypeAlias
+from operator import mul
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,9 +37,9 @@ from certify.kernel.chirotope import Point
 from certify.kernel.hexahedron import CORNERS, Simplex, simplex
 from certify.kernel.jacobian import Coefficients, bernstein_coefficients, halves
 from certify.kernel.validity import across
-from certify.mesh.compiled import compiled
+from certify.mesh.compiled import borrowing, compiled
 from certify.mesh.quality import jacobian_bounds
-from certify.mesh.signs import UNKNOWN, Floats, Numbers, Signs, numbers, safe
+from certify.mesh.signs import UNKNOWN, Floats, Numbers, Signs, exact_signs, numbers, safe
 
 HALVINGS = 30
 """The filter halves a box no more often: ten times in each direction."""
@@ -57,9 +59,42 @@ _LATTICE = 15
 Box: TypeAlias = NDArray[np.float64]
 """27 Bernstein coefficients; that with the indices i, j, k is at 9i + 3j + k."""
 
-_AT = np.zeros((2, 2, 2), np.int64)
-for _vertex, _corner in CORNERS.items():
-    _AT[_corner] = _vertex - 1
+_BIT = (0, 1)
+_AT: dict[tuple[int, ...], int] = {corner: vertex - 1 for vertex, corner in CORNERS.items()}
+_EDGES = np.array(
+    [
+        [_AT[(*ends[:axis], side, *ends[axis:])] for side in _BIT]
+        for axis in range(3)
+        for ends in product(_BIT, repeat=2)
+    ]
+)
+"""The edges in the directions u, v and w: that from (0, v, w) is 2v + w, and so on."""
+
+_CROSSES = np.array(
+    [
+        (2 * v1 + w1, 4 + 2 * u2 + w2, 6 * v1 + 3 * u2 + w1 + w2)
+        for v1, w1, u2, w2 in product(_BIT, repeat=4)
+    ]
+)
+"""An edge in direction u, one in direction v, and the place of the sum their product belongs to."""
+
+_DOTS = np.array(
+    [
+        (6 * v1 + 3 * u2 + k, 8 + 2 * u3 + v3, 9 * (u2 + u3) + 3 * (v1 + v3) + k)
+        for v1, u2, u3, v3 in product(_BIT, repeat=4)
+        for k in range(3)
+    ]
+)
+"""Such a place, an edge in direction w, and the coefficient that their product belongs to."""
+
+_SCALES = np.array([0.5 ** index.count(1) for index in product(range(3), repeat=3)])
+
+
+_AT_CORNERS = np.array(
+    [[vertex - 1, *(across(vertex, axis) - 1 for axis in range(3))] for vertex in CORNERS]
+)
+_PARITY = [(-1) ** sum(corner) for corner in CORNERS.values()]
+"""At a corner the Jacobian is this times the determinant of it and its three neighbours."""
 
 
 def positive(points: Numbers) -> Signs:
@@ -116,7 +151,12 @@ def _below(value: Fraction) -> float:
 
 def decided(points: NDArray[Any]) -> int:
     """Return 1, -1 or 0 as :func:`positive` does, for one hexahedron, by integers of any size."""
-    coefficients = bernstein_coefficients(_kernels(points))
+    if min(map(mul, exact_signs(points, _AT_CORNERS), _PARITY)) <= 0:
+        return -1  # which is by far the most frequent answer, and takes little
+    return _decided(bernstein_coefficients(_kernels(points)))
+
+
+def _decided(coefficients: Coefficients) -> int:
     if any(_failing(coefficients)):
         return -1
     boxes = [coefficients]
@@ -144,7 +184,7 @@ def _kernels(points: NDArray[Any]) -> list[Point]:
 
 def _failing(coefficients: Coefficients) -> Iterator[Simplex]:
     """Yield the edges of the cube on which the Jacobian is not positive everywhere."""
-    for edge, places in _EDGES.items():
+    for edge, places in _ON_EDGES.items():
         a, b, c = (coefficients[place] for place in places)
         if a <= 0 or c <= 0 or (b < 0 and b * b >= a * c):
             yield edge
@@ -162,88 +202,100 @@ def _edges() -> dict[Simplex, list[tuple[int, ...]]]:
     return found
 
 
-_EDGES = _edges()
+_ON_EDGES = _edges()
 
 
 @compiled
 def _filter(points: Floats, out: Signs) -> None:
-    boxes, edges = workspace()
+    scratch = workspace()
     for h in range(len(points)):
-        out[h] = filtered_jacobian(points[h], boxes, edges)
+        out[h] = filtered_jacobian(points[h], scratch)
+
+
+class Workspace(NamedTuple):
+    """What :func:`filtered_jacobian` writes on.
+
+    boxes: a stack; depths: how often each was halved; edges: the twelve; crosses: sums of vector
+    products of edges.
+    """
+
+    boxes: Floats
+    depths: NDArray[np.int64]
+    edges: Floats
+    crosses: Floats
 
 
 @compiled
 def _least(points: Floats, out: Floats) -> None:
-    boxes, edges = workspace()
+    scratch = workspace()
     for h in range(len(points)):
         if safe(points[h]):
-            error = _ROUNDING * _coefficients(points[h], boxes[0], edges)
-            out[h] = _lower_bound(boxes, error)
+            error = _ROUNDING * _coefficients(points[h], scratch)
+            out[h] = _lower_bound(scratch, error)
 
 
 @compiled
-def workspace() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the scratch arrays that :func:`filtered_jacobian` wants."""
-    return np.empty((HALVINGS + 2, 27)), np.empty((3, 4, 3))
+def workspace() -> Workspace:
+    """Return something to write on."""
+    depths = np.zeros(HALVINGS + 2, np.int64)
+    return Workspace(np.empty((HALVINGS + 2, 27)), depths, np.empty((12, 3)), np.empty((12, 3)))
 
 
-@compiled
-def filtered_jacobian(points: Floats, boxes: NDArray[np.float64], edges: Floats) -> int:
+@borrowing
+def filtered_jacobian(points: Floats, scratch: Workspace) -> int:
     """Return 1, -1 or UNKNOWN for eight points."""
     if not safe(points):
         return UNKNOWN
-    size = _coefficients(points, boxes[0], edges)
-    found = _subdivided(boxes, _ROUNDING * size, HALVINGS)
+    return filtered_safe(points, scratch)
+
+
+@borrowing
+def filtered_safe(points: Floats, scratch: Workspace) -> int:
+    """Return what :func:`filtered_jacobian` does, for points that are safe."""
+    size = _coefficients(points, scratch)
+    found = _subdivided(scratch, _ROUNDING * size, HALVINGS)
     if found == UNKNOWN:
         halvings = _halvings_without_error(points, size)
         if halvings >= 0:
-            _coefficients(points, boxes[0], edges)
-            found = _subdivided(boxes, 0.0, halvings)
+            _coefficients(points, scratch)
+            found = _subdivided(scratch, 0.0, halvings)
     return found
 
 
-@compiled
-def _coefficients(points: Floats, box: Box, edges: Floats) -> float:
-    """Put the 27 Bernstein coefficients into ``box`` and return F."""
-    for a in range(2):
-        for b in range(2):
-            for axis in range(3):
-                edges[0, 2 * a + b, axis] = points[_AT[1, a, b], axis] - points[_AT[0, a, b], axis]
-                edges[1, 2 * a + b, axis] = points[_AT[a, 1, b], axis] - points[_AT[a, 0, b], axis]
-                edges[2, 2 * a + b, axis] = points[_AT[a, b, 1], axis] - points[_AT[a, b, 0], axis]
-    box[:] = 0.0
-    for v1 in range(2):
-        for w1 in range(2):
-            ax, ay, az = edges[0, 2 * v1 + w1]
-            for u2 in range(2):
-                for w2 in range(2):
-                    bx, by, bz = edges[1, 2 * u2 + w2]
-                    x, y, z = ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
-                    for u3 in range(2):
-                        for v3 in range(2):
-                            cx, cy, cz = edges[2, 2 * u3 + v3]
-                            place = 9 * (u2 + u3) + 3 * (v1 + v3) + w1 + w2
-                            box[place] += x * cx + y * cy + z * cz
-    for place in range(27):
-        ones = (place // 9 == 1) + (place // 3 % 3 == 1) + (place % 3 == 1)
-        box[place] *= 1.0 / (1 << ones)
+@borrowing
+def _coefficients(points: Floats, scratch: Workspace) -> float:
+    """Put the 27 Bernstein coefficients into the first box and return F."""
+    edges, crosses, box = scratch.edges, scratch.crosses, scratch.boxes[0]
     size = 1.0
     for axis in range(3):
         most = 0.0
-        for direction in range(3):
-            for k in range(4):
-                most = max(most, abs(edges[direction, k, axis]))
+        for k in range(12):
+            edges[k, axis] = points[_EDGES[k, 1], axis] - points[_EDGES[k, 0], axis]
+            most = max(most, abs(edges[k, axis]))
         size *= most
+    crosses[:] = 0.0
+    for k in range(16):
+        a, b, place = edges[_CROSSES[k, 0]], edges[_CROSSES[k, 1]], _CROSSES[k, 2]
+        crosses[place, 0] += a[1] * b[2] - a[2] * b[1]
+        crosses[place, 1] += a[2] * b[0] - a[0] * b[2]
+        crosses[place, 2] += a[0] * b[1] - a[1] * b[0]
+    box[:] = 0.0
+    for k in range(48):
+        a, c = crosses[_DOTS[k, 0]], edges[_DOTS[k, 1]]
+        box[_DOTS[k, 2]] += a[0] * c[0] + a[1] * c[1] + a[2] * c[2]
+    for place in range(27):
+        box[place] *= _SCALES[place]
     return size
 
 
-@compiled
-def _subdivided(boxes: NDArray[np.float64], error: float, halvings: int) -> int:
+@borrowing
+def _subdivided(scratch: Workspace, error: float, halvings: int) -> int:
     """Return the answer for the first box, whose coefficients have at most this error.
 
-    The boxes that wait are a stack; how often one was halved is on another.
+    The boxes that wait are a stack.
     """
-    depths = np.zeros(len(boxes), np.int64)
+    boxes, depths = scratch.boxes, scratch.depths
+    depths[0] = 0
     top, looked = 1, 0
     while top:
         top, looked = top - 1, looked + 1
@@ -267,19 +319,22 @@ def _subdivided(boxes: NDArray[np.float64], error: float, halvings: int) -> int:
     return 1
 
 
-@compiled
-def _lower_bound(boxes: NDArray[np.float64], error: float) -> float:
+@borrowing
+def _lower_bound(scratch: Workspace, error: float) -> float:
     """Return a lower bound for the first box, whose coefficients have at most this error.
 
     Boxes are halved EIGHTHS times, and on until the coefficients are positive, or one at a corner,
     which is a value, is not.
     """
-    depths = np.zeros(len(boxes), np.int64)
+    boxes, depths = scratch.boxes, scratch.depths
+    depths[0] = 0
     top, looked, bound = 1, 0, np.inf
     while top:
         top, looked = top - 1, looked + 1
         box, depth = boxes[top], depths[top]
-        lowest, corner = box.min(), np.inf
+        lowest, corner = np.inf, np.inf
+        for place in range(27):
+            lowest = min(lowest, box[place])
         for place in (0, 2, 6, 8, 18, 20, 24, 26):
             corner = min(corner, box[place])
         enough = lowest > error or corner <= error or looked > BOXES
@@ -292,7 +347,7 @@ def _lower_bound(boxes: NDArray[np.float64], error: float) -> float:
     return bound
 
 
-@compiled
+@borrowing
 def _halve(box: Box, other: Box, axis: int) -> None:
     """Replace the coefficients of a box by those of its lower half, and give the upper's."""
     step = (9, 3, 1)[axis]
@@ -305,7 +360,7 @@ def _halve(box: Box, other: Box, axis: int) -> None:
         other[start], other[start + step], other[start + 2 * step] = middle, bc, c
 
 
-@compiled
+@borrowing
 def _halvings_without_error(points: Floats, size: float) -> int:
     """Return how many halvings are exact, for safe points; -1 if the coefficients are not."""
     most, bits = 0.0, 0
@@ -314,14 +369,14 @@ def _halvings_without_error(points: Floats, size: float) -> int:
             most = max(most, abs(x))
     if most == 0.0 or size == 0.0:
         return HALVINGS
-    exponent = np.int64(np.ceil(np.log2(most))) + 1
+    exponent = int(np.ceil(np.log2(most))) + 1
     scale = 2.0 ** (_LATTICE - exponent)
     for point in points:
         for x in point:
-            whole = np.int64(x * scale)
+            whole = int(x * scale)
             if whole != x * scale:
                 return -1
-            bits |= int(whole)
+            bits |= whole
     unit = 1.0 / scale
     while not bits & 1:
         bits, unit = bits >> 1, 2.0 * unit

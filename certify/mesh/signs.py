@@ -28,7 +28,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from certify.kernel.chirotope import QUADRUPLES
-from certify.mesh.compiled import compiled
+from certify.mesh.compiled import borrowing, compiled
 
 Floats: TypeAlias = NDArray[np.float64]
 Signs: TypeAlias = NDArray[np.int8]
@@ -63,12 +63,12 @@ def signs(points: Numbers) -> Signs:
     out = np.empty((len(given), len(QUADRUPLES)), np.int8)
     if given.dtype == object:
         for own, row in zip(given, out, strict=True):
-            row[:] = _exact(own, _QUADRUPLES)
+            row[:] = exact_signs(own, _QUADRUPLES)
         return out
     _filter_hexahedra(given, _QUADRUPLES, out)
     for index in np.flatnonzero((out == UNKNOWN).any(axis=1)):
         unknown = np.flatnonzero(out[index] == UNKNOWN)
-        out[index, unknown] = _exact(given[index], _QUADRUPLES[unknown])
+        out[index, unknown] = exact_signs(given[index], _QUADRUPLES[unknown])
     return out
 
 
@@ -89,7 +89,7 @@ def orientations(points: Numbers, rows: ArrayLike) -> Signs:
     if given.dtype != object:
         _filter_quadruples(given, quadruples, out)
     for index in np.flatnonzero(out == UNKNOWN):
-        out[index] = _exact(given[quadruples[index]], np.arange(4)[None])[0]
+        out[index] = exact_signs(given[quadruples[index]], np.arange(4)[None])[0]
     return out
 
 
@@ -122,7 +122,7 @@ def _fraction(number: object) -> Fraction:
     raise ValueError(f"{number!r:.80} is not a finite number")
 
 
-def _exact(points: NDArray[Any], quadruples: NDArray[np.int64]) -> list[int]:
+def exact_signs(points: NDArray[Any], quadruples: NDArray[np.int64]) -> list[int]:
     """Return the signs of quadruples of some points, by integers of any size."""
     ratios = [x.as_integer_ratio() for x in points.ravel().tolist()]
     unit = lcm(*{below for _, below in ratios})
@@ -140,7 +140,7 @@ def _sign(a: Sequence[int], b: Sequence[int], c: Sequence[int], d: Sequence[int]
     return (value > 0) - (value < 0)
 
 
-@compiled
+@borrowing
 def safe(points: Floats) -> bool:
     """Can nothing over- or underflow in a determinant of these points?"""
     for point in points:

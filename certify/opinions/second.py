@@ -28,7 +28,7 @@ from certify.opinions.bounds import jacobian_fault
 from certify.opinions.exhaustive import triangulations
 from certify.opinions.outside import PROGRAMS
 from certify.opinions.planes import convexity_fault, realization_fault
-from certify.run import Report, mapping
+from certify.processes import Report, mapping
 
 
 @dataclass

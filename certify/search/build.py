@@ -21,7 +21,7 @@ from certify.kernel.orientations import convex_formula, has_sign
 from certify.kernel.refutation import FinalPolynomial
 from certify.kernel.triangulation import label, orbit, orientation
 from certify.manifest import EVIDENCE, evidence
-from certify.run import Report, mapping
+from certify.processes import Report, mapping
 from certify.search.enumeration import Pattern, patterns
 from certify.search.final_polynomials import refute_with_polynomials
 from certify.search.naming import assign_names

@@ -21,7 +21,8 @@ from certify.search.refutations import lrat, refute
 HERE = Path(__file__).resolve().parent
 WITHOUT_SECTIONS = ("15_I",)
 WITH_SECTIONS = (
-    "11_AD 11_AE 12_M 12_N 12_T 12_W 13_AA 13_AB 13_C 13_L 13_Y 13_Z 14_Q 14_S 15_K".split()
+    *("11_AD", "11_AE", "12_M", "12_N", "12_T", "12_W", "13_AA", "13_AB"),
+    *("13_C", "13_L", "13_Y", "13_Z", "14_Q", "14_S", "15_K"),
 )
 
 

@@ -31,7 +31,7 @@ from certify.families import of_question
 from certify.kernel.certificate import PATTERN_NAMES, Certificate, No, read_certificate
 from certify.kernel.evidence import Evidence, default_root
 from certify.kernel.triangulation import orientation
-from certify.run import Report, mapping
+from certify.processes import Report, mapping
 from certify.writing import write_file
 
 OUTLINES = Path(__file__).with_name("outlines.json")

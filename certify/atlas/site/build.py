@@ -38,7 +38,7 @@ from certify.kernel.evidence import Evidence, certificate_file, default_root
 from certify.kernel.hexahedron import BOUNDARIES, BOUNDARY_TYPES, boundary_letter
 from certify.kernel.theorems import Outcome
 from certify.kernel.triangulation import label
-from certify.run import Report, mapping
+from certify.processes import Report, mapping
 from certify.writing import written_to
 
 MENU = (

@@ -16,7 +16,8 @@ from certify.kernel.evidence import Evidence, completeness_file
 from certify.opinions.attack.corpus import ForgedList, Forgery, Record, read_corpus
 from certify.opinions.attack.judge import Judge
 from certify.opinions.attack.kinds import KINDS, forge
-from certify.run import Report, mapping, run
+from certify.processes import Report, mapping
+from certify.run import run
 from certify.writing import write_files
 
 CHUNK = 100
