@@ -430,7 +430,8 @@ Proof.
       simpl; auto; lia.
 Qed.
 
-Lemma listed_true L : (forall q, In q inner -> used T q = used L q) \/ true_clause (listed_clause L).
+Lemma listed_true L :
+  (forall q, In q inner -> used T q = used L q) \/ true_clause (listed_clause L).
 Proof.
   destruct (existsb true_literal (listed_clause L)) eqn:e; [now right | left].
   intros q i. apply not_true_iff_false in e. destruct (eqb (used T q) (used L q)) eqn:k.

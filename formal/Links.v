@@ -14,7 +14,8 @@ Import ListNotations.
 (** ** Euler's formula for discs *)
 
 Lemma all_triples (f : vertex -> vertex -> vertex -> bool) :
-  forallb (fun a => forallb (fun b => forallb (f a b) all_vertices) all_vertices) all_vertices = true ->
+  forallb (fun a => forallb (fun b => forallb (f a b) all_vertices) all_vertices) all_vertices
+    = true ->
   forall a b c, f a b c = true.
 Proof.
   intros h a b c. rewrite forallb_forall in h. specialize (h a (in_all_vertices a)).
@@ -50,7 +51,8 @@ Lemma euler_glue D a b c n x y :
   euler (covers ((a, b, c) :: D)) (x + y).
 Proof.
   intro h. assert (e : forall k, count (covers ((a, b, c) :: D)) (faces (S k)) =
-    count (covers D) (faces (S k)) + count (fun f => subset f [a; b; c] && subset n f) (faces (S k))).
+    count (covers D) (faces (S k)) +
+    count (fun f => subset f [a; b; c] && subset n f) (faces (S k))).
   { intro k. rewrite !count_total, <- total_add. apply total_ext. intros f i. specialize (h k f i).
     rewrite covers_cons. cbn [corners].
     destruct (subset f [a; b; c]); [rewrite h by auto; destruct (subset n f) | simpl]; simpl; lia. }
@@ -290,7 +292,8 @@ Proof.
   - apply face_covers, (boundary B T tri) in e as [d h]; auto.
     now apply (degree_apexes T T_nodup _ _ _ [d]).
   - destruct (at_most_two B T tri a b c n) as (ds & h & le).
-    rewrite (degree_apexes T T_nodup a b c ds i h). destruct ds as [| d [| d' [|]]]; simpl in *; try lia.
+    rewrite (degree_apexes T T_nodup a b c ds i h).
+    destruct ds as [| d [| d' [|]]]; simpl in *; try lia.
     exfalso. apply not_true_iff_false in e. apply e, face_covers, (boundary B T tri); auto.
     now exists d.
 Qed.
@@ -312,7 +315,8 @@ Proof.
     pose proof (three_triangles v q i) as k. destruct (used T q).
     - rewrite andb_true_r, <- k. apply count_ext. intros f _. apply andb_true_r.
     - rewrite andb_false_r. apply count_zero. intros f _. apply andb_false_r. }
-  rewrite <- e. unfold boundary_triangles, at_vertex. rewrite !count_total, <- total_add, <- total_scale.
+  rewrite <- e. unfold boundary_triangles, at_vertex.
+  rewrite !count_total, <- total_add, <- total_scale.
   apply total_ext. intros f i. apply filter_In in i as [i _]. now apply degree_used.
 Qed.
 
@@ -331,7 +335,8 @@ Proof.
   rewrite forallb_forall in n. specialize (n t i). apply distinct_iff in n.
   assert (j : In (increasing (corners t)) (faces 3)).
   { rewrite <- (length_corners t). now apply increasing_face. }
-  assert (e : forall v, In v (increasing (corners t)) <-> In v (corners t)) by (intro; apply in_increasing).
+  assert (e : forall v, In v (increasing (corners t)) <-> In v (corners t))
+    by (intro; apply in_increasing).
   apply (used_subset T f (increasing (corners t))).
   - rewrite (subset_same f f _ (corners t)); [exact h | tauto | exact e].
   - apply (used_degree T T_nodup). pose proof (degree_cases _ j) as d.
@@ -363,7 +368,8 @@ Qed.
     than two, so that no edge of the link leaves C; as the link is connected, no vertex of it is
     outside C. *)
 Theorem no_closed_part a b C x o y : a <> b ->
-  (forall u, In u C -> exists p q, In p C /\ In q C /\ p <> q /\ spans T a b u p /\ spans T a b u q) ->
+  (forall u, In u C ->
+    exists p q, In p C /\ In q C /\ p <> q /\ spans T a b u p /\ spans T a b u q) ->
   In x C -> ~ In o C -> spans T a b o y -> False.
 Proof.
   intros ne two ix no so.
@@ -372,7 +378,8 @@ Proof.
     assert (n : NoDup [a; b; u]).
     { apply spans_iff in s as [s _]. apply (NoDup_remove_1 [a; b; u] [] w) in s. exact s. }
     destruct (at_most_two B T tri a b u n) as (ds & [_ d] & le).
-    apply d in s, sp, sq. destruct ds as [| e [| e' [|]]]; simpl in *; try lia; intuition congruence. }
+    apply d in s, sp, sq.
+    destruct ds as [| e [| e' [|]]]; simpl in *; try lia; intuition congruence. }
   assert (swap : forall u w, spans T a b u w -> spans T a b w u).
   { intros u w. apply spans_permutation, perm_skip, perm_skip, perm_swap. }
   assert (e : mem x C = mem o C).

@@ -108,7 +108,8 @@ Fixpoint consecutive_test (l : list vertex) (x y : vertex) : bool :=
   end.
 Definition graph_test (joined : vertex -> vertex -> bool) (l : list vertex) : bool :=
   every (fun x => every (fun y =>
-    eqb (joined x y) (consecutive_test l x y ||| consecutive_test l y x)) all_vertices) all_vertices.
+    eqb (joined x y) (consecutive_test l x y ||| consecutive_test l y x)) all_vertices)
+    all_vertices.
 
 (** From a vertex go on to neighbours that were not seen, as long as there are any. *)
 Fixpoint trace (fuel : nat) (joined : vertex -> vertex -> bool) (seen : list vertex) (x : vertex)
@@ -223,7 +224,8 @@ Proof.
   apply lazy_and in h as [d h]. apply shelling_sound in d. exists D. split; auto.
   intros a b c. rewrite (face_nodup_covers D a b c d), lazy_and, distinct_iff.
   rewrite (spans_used T tested_nodup).
-  assert (k : NoDup [a; b; c] -> (covers D [a; b; c] = negb (mem v [a; b; c]) && used T [v; a; b; c])).
+  assert (k : NoDup [a; b; c] ->
+    covers D [a; b; c] = negb (mem v [a; b; c]) && used T [v; a; b; c]).
   { intro n. rewrite every_forall in h. specialize (h _ (increasing_face _ n)).
     assert (e : forall w, In w (increasing [a; b; c]) <-> In w [a; b; c])
       by (intro; apply in_increasing).
@@ -265,7 +267,8 @@ Proof.
   { unfold border. rewrite filter_In, Nat.eqb_eq, <- len. split.
     - intros (d & h). split; auto. now rewrite (apexes_unique _ _ _ _ _ ap h).
     - intros [_ h]. destruct ds as [| d [|]]; try discriminate. now exists d. }
-  assert (same : forall w, In w (increasing [a; b; c]) <-> In w [a; b; c]) by (intro; apply in_increasing).
+  assert (same : forall w, In w (increasing [a; b; c]) <-> In w [a; b; c])
+    by (intro; apply in_increasing).
   rewrite e, face_covers, <- (covers_same B _ _ same) by exact n. split; [apply h2 |].
   intro h. apply covers_iff in h as (t & j & s). apply h1 in j as k.
   apply any_exists in k as (f & jf & s'). replace (increasing [a; b; c]) with f; auto.
@@ -300,7 +303,8 @@ Proof.
     assert (n : NoDup [a; b']) by (repeat constructor; simpl; intuition).
     pose proof (increasing_face _ n) as k. pose proof (increasing_permutation _ n) as p.
     apply ed in k. revert k p. destruct (increasing [a; b']) as [| x [| y [|]]]; try discriminate.
-    intros k p. apply (edge_sound T ok) in k. apply Permutation_length_2 in p as [[<- <-] | [<- <-]]; auto.
+    intros k p. apply (edge_sound T ok) in k.
+    apply Permutation_length_2 in p as [[<- <-] | [<- <-]]; auto.
     now apply edge_swap.
   - intro v. apply (vertex_sound T ok). rewrite every_forall in ve. apply ve, in_all_vertices.
 Qed.

@@ -78,7 +78,10 @@ Inductive disc : list triangle -> Prop :=
 (** ** Triangulations
 
     [T] triangulates the hexahedron, and [B] is how its facets are cut. In one phrase: [T] is a
-    3-manifold with boundary on the eight vertices, and its boundary is [B]. *)
+    3-manifold with boundary on the eight vertices, and its boundary is [B]. Some of the conditions
+    follow from others, and are there for the reader's sake. That [T] is connected follows too (its
+    vertices are all in [B], and the link of each is connected). That it is a ball is not demanded,
+    so that the theorem says more: there is no other such manifold. *)
 Record bounded_by (B : list triangle) (T : list tetrahedron) : Prop := BoundedBy {
   (** The tetrahedra have four different vertices, which are not those of a facet. *)
   proper : forall t, In t T -> NoDup (vertices t) /\
