@@ -13,14 +13,16 @@ Import ListNotations.
 Fixpoint injections (n : nat) : list (list vertex) :=
   match n with
   | 0 => [[]]
-  | S n' => flat_map (fun l => map (fun v => v :: l) (filter (fun v => negb (mem v l)) all_vertices))
-              (injections n')
+  | S n' =>
+      flat_map (fun l => map (fun v => v :: l) (filter (fun v => negb (mem v l)) all_vertices))
+        (injections n')
   end.
 Lemma in_injections l : NoDup l -> In l (injections (length l)).
 Proof.
   induction 1 as [| v l n h IH]; [now left |]. cbn [injections length].
   apply in_flat_map. exists l. split; auto.
-  apply in_map_iff. exists v. split; auto. apply filter_In. split; [apply in_all_vertices |]. now apply negb_true_iff, mem_false.
+  apply in_map_iff. exists v. split; auto. apply filter_In.
+  split; [apply in_all_vertices |]. now apply negb_true_iff, mem_false.
 Qed.
 
 (** The map that a list of eight vertices stands for. *)
