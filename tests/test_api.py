@@ -13,8 +13,7 @@ import numpy as np
 import pytest
 
 import certify
-from certify import api
-from certify import run as running
+from certify import api, processes
 from certify.kernel.certificate import PATTERN_NAMES
 from certify.kernel.hexahedron import CORNERS
 from tests.commands import five_a, write
@@ -172,7 +171,7 @@ def test_no_more_processes_than_every_system_allows(
         asked.append(jobs)
         raise BrokenProcessPool
 
-    monkeypatch.setattr(running, "ProcessPoolExecutor", pool)
+    monkeypatch.setattr(processes, "ProcessPoolExecutor", pool)
     with pytest.raises(ChildProcessError, match="was killed"):
         certify.check_all(root=root, jobs=10**9)
     assert asked == [61]
