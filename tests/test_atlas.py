@@ -6,7 +6,7 @@ import re
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import cache
 from html.parser import HTMLParser
@@ -352,6 +352,15 @@ def browser(site: Path) -> Iterator[Browser]:
     assert {url for url in found.asked if not url.startswith(site.as_uri())} <= set()
 
 
+def soon(page: Any, ask: Callable[[], Any], wanted: Any) -> bool:
+    """Whether the answer becomes what is wanted: a page answers in its own time."""
+    for _ in range(200):
+        if ask() == wanted:
+            return True
+        page.wait_for_timeout(50)
+    return False
+
+
 def drawn(page: Any) -> None:
     """Wait until plotly has drawn."""
     page.wait_for_selector("#view canvas")
@@ -410,7 +419,8 @@ def test_filters_count_as_the_theorems_do(browser: Browser, outcome: Outcome) ->
     for link in links:
         link.click()
         count = int(link.inner_text())
-        assert page.inner_text("#found") == f"{count} pattern{'s' * (count != 1)}"
+        told = f"{count} pattern{'s' * (count != 1)}"
+        assert soon(page, lambda: page.inner_text("#found"), told)
         assert page.locator("#cards li:visible").count() == count
     for question in QUESTIONS:
         page.click("button[type=reset]")
@@ -474,24 +484,23 @@ def test_the_view_obeys_its_controls(browser: Browser) -> None:
     assert all(own["visible"] for own in before)
     page.focus("#apart")
     page.keyboard.press("End")
-    after = solids(page)
-    assert all(one["x"] != other["x"] for one, other in zip(before, after, strict=True))
+    assert soon(page, lambda: in_place(page, before), 0)
     page.keyboard.press("Home")
-    assert solids(page) == before
+    assert soon(page, lambda: solids(page), before)
     # Hiding, and neighbours.
     first = before[0]["name"]
     page.locator("#tetrahedra input").first.uncheck()
-    assert shown(page) == {own["name"] for own in before} - {first}
+    assert soon(page, lambda: shown(page), {own["name"] for own in before} - {first})
     page.click("#all")
     page.locator("#tetrahedra button").first.click()
     near = {o["name"] for o in before if len(set(o["name"]) & set(first)) >= 3}
-    assert shown(page) == near
+    assert soon(page, lambda: shown(page), near)
     page.click("#all")
     # What the facets show.
     page.check("#jacobian")
     assert page.is_checked("#curved")
-    types = page.evaluate("() => document.getElementById('view').data.map((t) => t.type)")
-    assert types.count("surface") == 6
+    types = "() => document.getElementById('view').data.map((t) => t.type)"
+    assert soon(page, lambda: page.evaluate(types).count("surface"), 6)
     assert page.is_visible("#scale")
     page.uncheck("#curved")
     assert not page.is_checked("#jacobian")
@@ -500,11 +509,16 @@ def test_the_view_obeys_its_controls(browser: Browser) -> None:
     seen = page.evaluate(eye)
     page.focus("[data-turn=left]")
     page.keyboard.press("Enter")
+    assert soon(page, lambda: page.evaluate(eye) != seen, True)
     turned = page.evaluate(eye)
-    assert turned != seen
     assert far(turned) == pytest.approx(far(seen))
     page.click("[data-turn=in]")
-    assert far(page.evaluate(eye)) < far(turned)
+    assert soon(page, lambda: far(page.evaluate(eye)) < far(turned), True)
+
+
+def in_place(page: Any, before: list[dict[str, Any]]) -> int:
+    """Return how many tetrahedra are where they were."""
+    return sum(a["x"] == b["x"] for a, b in zip(before, solids(page), strict=True))
 
 
 def far(eye: dict[str, float]) -> float:
@@ -537,7 +551,7 @@ def test_proportions(browser: Browser) -> None:
     drawn(page)
     before = solids(page)
     page.check("#true")
-    assert all(one["x"] != other["x"] for one, other in zip(before, solids(page), strict=True))
+    assert soon(page, lambda: in_place(page, before), 0)
 
 
 @slowly

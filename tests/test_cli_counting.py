@@ -124,9 +124,12 @@ def test_usage_errors(words: str, message: str) -> None:
 
 
 def test_bad_meshes(tmp_path: Path) -> None:
-    flat = CUBE * [1, 1, 0]
+    flat = CUBE @ np.array([[1, 0, 0], [0, 1, 0], [3, 3, 0]])
     path = write(tmp_path / "flat.vtu", flat, FIVE)
     assert_rejects(run(CHECKOUT, "census", str(path)), "flat.vtu", "is flat")
+    two = np.concatenate([CUBE, CUBE * 0.5 + 0.25])
+    path = write(tmp_path / "overlapping.vtu", two, np.concatenate([FIVE, FIVE + 8]))
+    assert_rejects(run(CHECKOUT, "census", str(path)), "overlapping.vtu", "overlaps tetrahedron")
     path = write(tmp_path / "twice.vtu", CUBE, np.concatenate([FIVE, FIVE[:1]]))
     assert_rejects(run(CHECKOUT, "census", str(path)), "twice.vtu", "on the same side")
     cells = [("hexahedron", [[*range(8)]])]

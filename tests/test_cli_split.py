@@ -185,6 +185,14 @@ def test_bad_meshes_are_refused_in_one_line(tmp_path: Path) -> None:
     assert_rejects(run(CHECKOUT, "split", inverted), "inverted.vtu", "hexahedron 1 (and 1 more)")
     double = written(tmp_path / "double.vtu", points, {"hexahedron": rows[[0, 1, 1]]})
     assert_rejects(run(CHECKOUT, "split", double), "double.vtu", "have the same vertices")
+    two = np.concatenate([points, points + 0.25])
+    cells = {"hexahedron": np.concatenate([rows[:1], rows[:1] + len(points)])}
+    overlapping = written(tmp_path / "overlapping.vtu", two, cells)
+    assert_rejects(
+        run(CHECKOUT, "split", overlapping, "--to", str(tmp_path / "out.vtu")),
+        *("overlapping.vtu", "hexahedron 1 and hexahedron 2 overlap"),
+    )
+    assert not (tmp_path / "out.vtu").exists()
     (tmp_path / "empty.vtu").write_text("")
     assert_rejects(
         run(CHECKOUT, "split", str(tmp_path / "empty.vtu")), "empty.vtu", "nothing in it"

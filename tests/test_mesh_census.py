@@ -23,8 +23,9 @@ from certify.kernel.evidence import Evidence
 from certify.mesh.census import Census, NotAMesh, count, hexahedra, streamed
 from certify.mesh.census.blocks import blocks
 from certify.mesh.census.journal import NotItsJournal
-from certify.mesh.census.prepare import along_the_curve, places, prepare
+from certify.mesh.census.prepare import prepare
 from certify.mesh.census.running import mapping
+from certify.mesh.curve import along_the_curve, places
 from certify.mesh.realized import labelled
 from tests import brute_census
 from tests.commands import CHECKOUT
@@ -224,6 +225,27 @@ def test_what_is_no_mesh_is_refused(cell: list[int], message: str) -> None:
 def test_what_are_no_arrays_of_a_mesh_is_refused(points: Any, cells: Any, message: str) -> None:
     with pytest.raises(ValueError, match=message):
         count(points, cells)
+
+
+def twins(scale: float, shift: float) -> tuple[Array, Array]:
+    """Return two cubes of five tetrahedra each."""
+    points = np.concatenate([CUBE, scale * np.array(CUBE, float) + shift])
+    return points, np.array([*CUBE_CELLS, *(np.array(CUBE_CELLS) + 8)])
+
+
+@pytest.mark.parametrize(("scale", "shift"), [(1, 0.5), (0.5, 0.25), (4, -1)])
+def test_meshes_that_overlap_are_refused(scale: float, shift: float) -> None:
+    with pytest.raises(NotAMesh, match=r"tetrahedron [5-9], .* overlaps tetrahedron [0-4]"):
+        count(*twins(scale, shift))
+
+
+def test_vertices_at_the_same_point_are_refused() -> None:
+    with pytest.raises(
+        NotAMesh, match=r"tetrahedron \d, .* has vertex .*, which is the same point"
+    ):
+        count(*twins(1, 1))
+    unused = np.concatenate([CUBE, CUBE])
+    assert count(unused, CUBE_CELLS).patterns == count(CUBE, CUBE_CELLS).patterns
 
 
 def test_a_mesh_of_nothing_has_nothing() -> None:

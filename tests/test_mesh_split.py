@@ -143,6 +143,31 @@ def test_bad_meshes_are_refused(fault: str) -> None:
     assert fault in str(raised.value)
 
 
+CUBE, CUBE_CELLS = grid(1, 1, 1)
+
+
+@pytest.mark.parametrize("other", [CUBE + 0.5, CUBE / 2 + 0.25, 4 * CUBE - 1])
+def test_cells_that_overlap_are_refused(other: Any) -> None:
+    points = np.concatenate([CUBE, other])
+    rows = np.concatenate([CUBE_CELLS["hexahedron"], CUBE_CELLS["hexahedron"] + 8])
+    with pytest.raises(BadMesh, match="hexahedron 1 and hexahedron 2 overlap"):
+        split(points, {"hexahedron": rows})
+
+
+@pytest.mark.parametrize("shift", [[1, 0.5, 0.5], [1, 1, 0.5], [0.5, 1, 0.25]])
+def test_cells_that_touch_are_split(shift: list[float]) -> None:
+    points = np.concatenate([CUBE, CUBE + np.array(shift)])
+    rows = np.concatenate([CUBE_CELLS["hexahedron"], CUBE_CELLS["hexahedron"] + 8])
+    assert split(points, {"hexahedron": rows}).tetrahedra is not None
+
+
+def test_vertices_at_the_same_point_are_refused() -> None:
+    points = np.concatenate([CUBE, CUBE + np.array([0, 0, 1])])
+    rows = np.concatenate([CUBE_CELLS["hexahedron"], CUBE_CELLS["hexahedron"] + 8])
+    with pytest.raises(BadMesh, match="hexahedron 2 has point 9, which is the same as point 2"):
+        split(points, {"hexahedron": rows})
+
+
 def test_a_tetrahedron_on_half_a_quadrilateral_is_refused() -> None:
     points = np.concatenate([POINTS, [[3.0, 0, 0]]])
     cells = {"hexahedron": np.array([SECOND]), "tetra": np.array([[*SECOND[1:3], SECOND[5], 12]])}

@@ -11,8 +11,7 @@ A split of a mesh are tetrahedra, each of which belongs to a cell, such that
 4. the volumes of a cell's tetrahedra sum up to the volume that its triangles enclose, exactly.
    (That follows from the others. It is asked as well.)
 
-Not said is that different cells do not overlap: cells that overlap without having a common face do
-so afterwards.
+Not said is that tetrahedra of different cells do not overlap: overlaps.py decides that.
 """
 
 from collections.abc import Mapping

@@ -11,6 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from certify.kernel.certificate import PATTERN_NAMES
+from certify.mesh.curve import along_the_curve
+from certify.mesh.overlaps import coincident, nearest, overlap, sides
+from certify.mesh.reading import BadMesh
 from certify.mesh.realized import embedded
 from certify.mesh.signs import Numbers, numbers
 from certify.mesh.split.checking import require_split
@@ -131,7 +134,8 @@ def split(
         show: Is told what is done, and how much of how much.
 
     Raises:
-        BadMesh: The cells do not fit together, or one is inside out; the message names it.
+        BadMesh: The cells do not fit together or overlap, one is inside out, or two vertices are
+            the same point; the message names a cell.
         ValueError: An argument is not what it should be.
         NotSplit: The tetrahedra were refused: a mistake in this program.
     """
@@ -148,6 +152,7 @@ def split(
             raise ValueError(f"{kind} cells of the shape {rows.shape} are unknown")
         if rows.min() < 0 or rows.max() >= len(given):
             raise ValueError(f"a {kind} has a vertex that does not exist")
+    _require_different(given, own)
     if "wedge" in own:
         own["wedge"] = way_round(given, own["wedge"])
     require_right_way(given, own)
@@ -166,7 +171,28 @@ def split(
     if show:
         show("checking tetrahedra", 0, len(tetrahedra.vertices))
     require_split(given, own, tetrahedra.vertices, tetrahedra.cells)
+    _require_apart(given, faces, tetrahedra)
     return Answer(given, faces, choices, tetrahedra, (), ())
+
+
+def _require_different(points: NDArray[Any], cells: Mapping[str, Rows]) -> None:
+    """Raise BadMesh if two vertices are the same point: cells that meet there are not joined."""
+    if pair := coincident(points, cells.values()):
+        kind = next(kind for kind, rows in cells.items() if (rows == pair[1]).any())
+        number = int((cells[kind] == pair[1]).any(axis=1).argmax()) + 1
+        raise BadMesh(
+            f"{kind} {number} has point {pair[1] + 1}, which is the same as point {pair[0] + 1}"
+        )
+
+
+def _require_apart(points: NDArray[Any], faces: Faces, tetrahedra: Tetrahedra) -> None:
+    """Raise BadMesh if tetrahedra overlap; they are of different cells, by require_split."""
+    order = along_the_curve(nearest(points)[tetrahedra.vertices[:, 0]])
+    along = tetrahedra.vertices[order]
+    _, _, outside = sides(len(points), along)
+    if pair := overlap(points, along, outside):
+        one, other = (faces.name(cell) for cell in sorted(tetrahedra.cells[order[[*pair]]]))
+        raise BadMesh(f"{one} and {other} overlap, at least as their quadrilaterals are cut here")
 
 
 def _no(points: NDArray[Any], faces: Faces, choices: Choices, found: list[Contradiction]) -> Answer:
