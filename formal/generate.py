@@ -7,29 +7,72 @@ program does needs to be trusted, but for one thing: that the module Catalogue s
 certificates say. Points and proofs are checked inside Coq, whoever made them. For sixteen patterns
 the folder proofs beside this file has other proofs, see NotValid.v. It shares no code with the
 Python package.
+
+Only names and numbers of the files come into a module, so that no file can say anything else to
+Coq. A file that is not what it should be ends the program with one line.
 """
 
 import argparse
 import json
 import re
-from collections.abc import Callable, Iterable, Sequence
+import sys
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
 from math import lcm
 from pathlib import Path
+from typing import Any
 
 QUESTIONS = ("realizable", "convex", "valid")
+
+Said = dict[str, Any]
+"""What a certificate, or a part of it, says."""
 
 
 # -- reading ------------------------------------------------------------------------------------
 
 
-def certificates(root: Path) -> list[dict]:
+def certificates(root: Path) -> list[Said]:
     """Return the certificates in the order 5_A, 6_A, ..., 15_K."""
-    found = [json.loads(path.read_text("utf-8")) for path in (root / "certificates").glob("*.json")]
+    found = [certificate(path) for path in (root / "certificates").glob("*.json")]
     return sorted(found, key=lambda c: (len(c["tetrahedra"]), len(c["pattern"]), c["pattern"]))
 
 
-def answered(root: Path, question: str, answer: str) -> list[dict]:
+def certificate(path: Path) -> Said:
+    """Return what a certificate says, after a look at everything that is taken from it."""
+    try:
+        said: Said = json.loads(path.read_text("utf-8"))
+        require(re.fullmatch(r"[0-9]{1,2}_[A-Z]{1,2}", said["pattern"]))
+        for four in said["tetrahedra"]:
+            require(len(four) == 4 and all(type(v) is int and 1 <= v <= 8 for v in four))
+        for question in QUESTIONS:
+            require(said[question]["answer"] in ("yes", "no", "open"))
+            for point in said[question].get("points", ()):
+                require(len(point) == 3 and all(map(is_rational, point)))
+            for final in said[question].get("final_polynomials", ()):
+                for quadruple, sign in final["signs"].items():
+                    require(re.fullmatch(r"[1-8]{4}", quadruple) and sign in (-1, 0, 1))
+                for times, six in final["inequalities"]:
+                    require(type(times) is int and times > 0 and len(six) == 6)
+                    require(all(type(v) is int and 1 <= v <= 8 for v in six))
+    except (ValueError, LookupError, TypeError, AttributeError, RecursionError, OSError) as error:
+        sys.exit(f"{path}: this is no certificate ({type(error).__name__})")
+    return said
+
+
+def require(condition: object) -> None:
+    """Raise ValueError unless a condition holds."""
+    if not condition:
+        raise ValueError
+
+
+def is_rational(x: object) -> bool:
+    """Is this an integer, or a text such as "-3/7"?"""
+    return type(x) is int or (
+        isinstance(x, str) and re.fullmatch(r"-?[0-9]+/0*[1-9][0-9]*", x) is not None
+    )
+
+
+def answered(root: Path, question: str, answer: str) -> list[Said]:
     """Return the certificates with this answer to the question."""
     return [c for c in certificates(root) if c[question]["answer"] == answer]
 
@@ -42,16 +85,20 @@ def proof_file(root: Path, pattern: str, question: str) -> Path:
     return root / "proofs" / f"{pattern}.{question}.lrat"
 
 
-def lrat_steps(path: Path) -> Iterable[tuple[str, list[str], list[str]]]:
+def lrat_steps(path: Path) -> Iterator[tuple[str, list[str], list[str]]]:
     """Yield number, literals and hints of every step that adds a clause; deletions are left out.
 
     A clause that is not deleted does no harm: every clause follows from the formula.
     """
-    for line in path.read_text("ascii").splitlines():
-        words = line.split(" ")
-        if words[1] != "d":
-            end = words.index("0")
-            yield words[0], words[1:end], words[end + 1 : -1]
+    try:
+        for line in path.read_text("ascii").splitlines():
+            words = line.split(" ")
+            if words[1] != "d":
+                end = words.index("0")
+                require(words[-1] == "0" and all(re.fullmatch(r"-?[0-9]+", w) for w in words))
+                yield words[0], words[1:end], words[end + 1 : -1]
+    except (ValueError, LookupError, OSError) as error:
+        sys.exit(f"{path}: this is no LRAT proof ({type(error).__name__})")
 
 
 # -- writing ------------------------------------------------------------------------------------
@@ -67,7 +114,7 @@ def vertices(numbers: Sequence[int]) -> str:
     return f"({', '.join(f'V{v}' for v in numbers)})"
 
 
-def tetrahedra(certificate: dict) -> str:
+def tetrahedra(certificate: Said) -> str:
     """Return the list of tetrahedra of a certificate."""
     return coq_list(map(vertices, certificate["tetrahedra"]))
 
@@ -95,7 +142,7 @@ def proof(path: Path) -> str:
     )
 
 
-def polynomial(final: dict) -> str:
+def polynomial(final: Said) -> str:
     """Return a final polynomial: signs of quadruples, then inequalities with their multipliers."""
     signs = (
         f"({vertices([*map(int, q)])}, {('Vanishes', 'Positive', 'Negative')[sign]})"
@@ -134,7 +181,7 @@ def catalogue(root: Path) -> str:
     )
 
 
-def claims(certificate: dict) -> str:
+def claims(certificate: Said) -> str:
     """Return the answers to the three questions."""
     said = {"yes": "Yes", "no": "No", "open": "Unknown"}
     return " ".join(said[certificate[question]["answer"]] for question in QUESTIONS)

@@ -80,7 +80,7 @@ def test_two_builds_are_equal_and_the_wheel_checks_itself(built: tuple[str, Path
 
 
 def test_the_wheel_has_the_code_and_the_evidence_only(wheel: Content) -> None:
-    expected = in_the_wheel(committed("certify/", "certificates/", "proofs/", NAME))
+    expected = in_the_wheel(committed("certify/", "certificates/", "formal/", "proofs/", NAME))
     assert f"{KERNEL}/check.py" in expected
     assert "certify/py.typed" in expected
     about = {name for name in wheel if ".dist-info/" in name}

@@ -140,6 +140,27 @@ def test_zeros_on_edges_are_found_wherever_they_are(zero: Fraction) -> None:
         assert jacobian._decided({index: own[index[1]] for index in np.ndindex(3, 3, 3)}) == want
 
 
+ALMOST_ZERO = (
+    "0x1.c4d5fd37f5b30p-3 0x1.de6a7d1729a92p-1 0x1.9aa9991364982p-1",
+    "0x1.d3a4fc797da94p-3 0x1.e3fef41c7b855p-1 0x1.a2606e1353e20p-1",
+    "0x1.b6f5b3bca97a8p-3 0x1.e7ed44fae38f6p-1 0x1.9f33258cf9ce0p-1",
+    "0x1.c273673a7e408p-3 0x1.e6c617c939584p-1 0x1.9ccc03cd122b0p-1",
+    "0x1.c4d45f504b208p-3 0x1.dbd0cc5bdc05ap-1 0x1.a1b37a96b6ee1p-1",
+    "0x1.c3795e22b04a0p-3 0x1.dd3a658870164p-1 0x1.a461d75cbe6bap-1",
+    "0x1.b2e232dc99b80p-3 0x1.e30c2edb139a2p-1 0x1.9ea26e0255f15p-1",
+    "0x1.c1d69984edd60p-3 0x1.ded7e6f869a45p-1 0x1.9a6e6c1927d1bp-1",
+)
+"""A hexahedron of a million random points; on edge 14 its Jacobian is almost zero."""
+
+
+def test_what_almost_touches_zero_is_decided() -> None:
+    points = np.array([[*map(float.fromhex, row.split())] for row in ALMOST_ZERO])
+    exact = bernstein_coefficients([tuple(map(Fraction, p)) for p in points.tolist()])
+    start, middle, end = exact[0, 0, 0], exact[0, 1, 0], exact[0, 2, 0]
+    assert middle < 0 < start * end - middle**2 < start * end / 10**6
+    assert positive([points]).tolist() == [1]
+
+
 @pytest.mark.parametrize(("shift", "want"), [(-(10**-5), -1), (0, 0), (10**-5, 1)])
 def test_what_touches_zero_inside_is_undecided(shift: float, want: int) -> None:
     """The sum of three squares: zero at (1/3, 1/3, 1/3) only, which no halving meets."""

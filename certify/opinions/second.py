@@ -22,7 +22,7 @@ from certify.kernel.evidence import Evidence, completeness_file
 from certify.kernel.hexahedron import BOUNDARY_TYPES
 from certify.kernel.theorems import Outcome
 from certify.kernel.triangulation import orientation
-from certify.opinions import formulas, outside
+from certify.opinions import formal, formulas, outside
 from certify.opinions.balls import ball_fault, coherent_orientation, instances
 from certify.opinions.bounds import jacobian_fault
 from certify.opinions.exhaustive import triangulations
@@ -89,6 +89,7 @@ def not_asked() -> Iterator[Opinion]:
     yield Opinion("Jacobians", "by Taylor forms on boxes, not by Bernstein coefficients")
     yield Opinion("formulas", "as they were written a second time, from the documents")
     yield Opinion("completeness", "by an exhaustive search, without a formula")
+    yield Opinion("Coq", "by theorems that rest on no axiom", absent=formal.absent())
     absent = None if find_spec("drup") else "it is on PyPI: pip install drup"
     yield Opinion("drup", "by unit propagation, in code extracted from a proof", absent=absent)
     for name, program in PROGRAMS.items():
@@ -99,6 +100,8 @@ def not_asked() -> Iterator[Opinion]:
 
 def _inquiries(root: Path, outcome: Outcome) -> Iterator[Inquiry]:
     """Yield every subject of every opinion, the longest first."""
+    if outcome.theorems and outcome.ok:
+        yield Inquiry("Coq", "the theorems", partial(formal.fault, root, outcome.files))
     for found in outcome.completeness:
         if found.fault is None:
             searched = partial(_searched, found.boundary, found.listed)

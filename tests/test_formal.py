@@ -1,0 +1,364 @@
+"""The theorems in Coq: what is generated, what Coq says of it, and that spoiled files break it."""
+
+import json
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from fractions import Fraction
+from itertools import combinations
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from certify.kernel.certificate import PATTERN_NAMES, QUESTIONS, Certificate, No, Yes
+from certify.kernel.check import instances_bounded_by
+from certify.kernel.hexahedron import BOUNDARY_TYPES, FACETS, SYMMETRIES, image
+from certify.kernel.refutation import replay
+from certify.kernel.theorems import Outcome
+from certify.opinions import formal
+from certify.opinions.second import second_opinions
+from certify.search import separations
+from tests.commands import CHECKOUT, needs_scripts, stand_in
+
+SOURCES = CHECKOUT / "formal"
+
+# What is generated.
+
+
+def generated(module: str, root: Path = CHECKOUT, code: int = 0) -> str:
+    """Return the module, or the error if the exit code is another."""
+    program = f"generate{'_complete' if module.startswith('Completeness') else ''}.py"
+    command = [sys.executable, "-B", str(SOURCES / program), module, "--root", str(root)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == code, done.stderr
+    assert code or not done.stderr
+    return done.stderr if code else done.stdout
+
+
+def numbers(text: str) -> list[int]:
+    return [int(word) for word in re.findall(r"-?\d+", text)]
+
+
+def in_fours(found: list[int]) -> list[tuple[int, ...]]:
+    return [tuple(found[i : i + 4]) for i in range(0, len(found), 4)]
+
+
+def test_the_catalogue_says_what_the_certificates_say(certificates: dict[str, Certificate]) -> None:
+    """All that has to be trusted of the generators, read by other code."""
+    said = {"Yes": "yes", "No": "no", "Unknown": "open"}
+    form = r'Pattern "(\w+)" (\w+) (\w+) (\w+)\s+\[([^]]*)\]'
+    found = re.findall(form, generated("Catalogue"))
+    assert [own[0] for own in found] == [*PATTERN_NAMES]
+    for name, *claims, tetrahedra in found:
+        own = certificates[name]
+        assert in_fours(numbers(tetrahedra)) == [*own.tetrahedra]
+        answers = {"yes" if isinstance(a, Yes) else "no" if isinstance(a, No) else "open"
+                   for a in own.answers.values()}  # fmt: skip
+        assert answers == {said[claim] for claim in claims}
+        for question, claim in zip(QUESTIONS, claims, strict=True):
+            kind = {"Yes": Yes, "No": No}[claim]
+            assert isinstance(own.answers[question], kind)
+
+
+@pytest.mark.parametrize("question", QUESTIONS)
+def test_points_are_those_of_the_certificates(
+    question: str, certificates: dict[str, Certificate]
+) -> None:
+    found = dict(re.findall(r"\(\* (\w+) \*\) \[(.*)\]", generated(f"Points_{question}")))
+    wanted = {n: c.answers[question] for n, c in certificates.items()}
+    assert found.keys() == {n for n, answer in wanted.items() if isinstance(answer, Yes)}
+    for name, text in found.items():
+        answer = wanted[name]
+        assert isinstance(answer, Yes)
+        own = [Fraction(x) for point in answer.points for x in point]
+        coordinates = numbers(text)
+        scale = next(x / y for x, y in zip(coordinates, own, strict=True) if y)
+        assert scale > 0
+        assert coordinates == [scale * x for x in own]
+
+
+@pytest.mark.parametrize("question", QUESTIONS)
+def test_refutations_are_those_of_the_files(
+    question: str, certificates: dict[str, Certificate]
+) -> None:
+    text = generated(f"Refutations_{question}")
+    found = dict(
+        re.findall(rf"Definition proof_{question}_(\w+) : list step := \[\n(.*?)\]\.\n", text, re.S)
+    )
+    no = {n for n, c in certificates.items() if isinstance(c.answers[question], No)}
+    assert found.keys() == no
+    for name, steps in found.items():
+        own = SOURCES / "proofs" / f"{name}.lrat"
+        if question != "valid" or not own.exists():
+            own = CHECKOUT / "proofs" / f"{name}.{question}.lrat"
+        lines = [line.split() for line in own.read_text().splitlines()]
+        wanted = [[int(word) for word in line if word != "0"] for line in lines if line[1] != "d"]
+        assert [numbers(step.replace("%Z", "")) for step in steps.split("Step ")[1:]] == wanted
+
+
+@pytest.mark.parametrize("letter", BOUNDARY_TYPES)
+def test_completeness_is_asked_of_the_same_boundary_and_list(
+    letter: str, outcome: Outcome, certificates: dict[str, Certificate]
+) -> None:
+    text = generated(f"Completeness_{letter}")
+    boundary, rest = text.split("Definition images")
+    triangles = numbers(boundary.partition(":=")[2])
+    found = [{*triangles[i : i + 3]} for i in range(0, len(triangles), 3)]
+    assert len(found) == 12
+    halves = [(a, b) for a, b in combinations(found, 2) if a | b in map(set, FACETS)]
+    assert {tuple(sorted(a & b)) for a, b in halves} == {*BOUNDARY_TYPES[letter]}
+    listed = []
+    for place, relabelling in re.findall(
+        r"\((\d+)%nat, \[([^]]*)\]\)", rest.split("Definition")[0]
+    ):
+        symmetry = tuple(numbers(relabelling))
+        assert symmetry in SYMMETRIES
+        tetrahedra = certificates[PATTERN_NAMES[int(place)]].tetrahedra
+        listed.append(tuple(sorted(image(symmetry, t) for t in tetrahedra)))
+    known = instances_bounded_by(letter, outcome.verdicts)
+    assert listed == [tuple(sorted(own)) for own in known]
+
+
+SPOILED_CERTIFICATES: dict[str, Callable[[dict[str, Any]], object]] = {
+    "a name that says more": lambda c: c.update(pattern='5_A" Yes Yes Yes []. Axiom a : False. (*'),
+    "a vertex that says more": lambda c: c["tetrahedra"][0].__setitem__(
+        0, "1). Axiom a : False. (*"
+    ),
+    "a vertex that is none": lambda c: c["tetrahedra"][0].__setitem__(0, 9),
+    "an answer that is none": lambda c: c["valid"].update(answer="perhaps"),
+    "a coordinate that says more": lambda c: c["valid"]["points"][0].__setitem__(0, "1). Axiom"),
+    "a coordinate that is infinite": lambda c: c["valid"]["points"][0].__setitem__(0, "1/0"),
+    "no answer": lambda c: c.pop("valid"),
+}
+
+
+@pytest.mark.parametrize("fault", SPOILED_CERTIFICATES)
+def test_a_spoiled_certificate_is_refused_in_one_line(root: Path, fault: str) -> None:
+    path = root / "certificates" / "5_A.json"
+    document = json.loads(path.read_text())
+    SPOILED_CERTIFICATES[fault](document)
+    path.write_text(json.dumps(document))
+    (line,) = generated("Catalogue", root, code=1).splitlines()
+    assert line.startswith(f"{path}: this is no certificate")
+
+
+@pytest.mark.parametrize("content", ["", "[", "[]", "[" * 100_000, "\xff"])
+def test_what_is_no_json_is_refused_in_one_line(root: Path, content: str) -> None:
+    path = root / "certificates" / "5_A.json"
+    path.write_text(content, "latin-1")
+    (line,) = generated("Points_valid", root, code=1).splitlines()
+    assert line.startswith(f"{path}: this is no certificate")
+
+
+@pytest.mark.parametrize("line", ["1 0 x 0", "1", "1 2 3", "1 2 0 3", "1 0 ]. Axiom 0", ""])
+def test_a_spoiled_proof_is_refused_in_one_line(root: Path, line: str) -> None:
+    path = root / "proofs" / "15_A.realizable.lrat"
+    path.write_text(path.read_text() + f"{line}\n")
+    (said,) = generated("Refutations_realizable", root, code=1).splitlines()
+    assert said.startswith(f"{path}: this is no LRAT proof")
+
+
+# The proofs that are Coq's own.
+
+
+def test_the_proofs_for_coq_are_found_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sys, "argv", ["separations", str(tmp_path)])
+    separations.main()
+    found = {path.name: path.read_text() for path in tmp_path.iterdir()}
+    assert found == {path.name: path.read_text() for path in SOURCES.glob("proofs/*")}
+    for name in (*separations.WITH, *separations.WITHOUT):
+        replay(separations.formula(name), found[f"{name}.lrat"])
+
+
+def test_the_proofs_for_coq_are_those_that_need_sections(
+    certificates: dict[str, Certificate], outcome: Outcome
+) -> None:
+    """And 15_I, whose proof in proofs/ happens to use some."""
+    convex = {
+        v.pattern for v in outcome.verdicts
+        if (v.answers["valid"], v.answers["convex"]) == ("no", "yes")
+    }  # fmt: skip
+    assert set(separations.WITH) == convex
+    listed = re.search(r"uses_separations[^[]*\[([^]]*)\]", (SOURCES / "NotValid.v").read_text())
+    assert listed is not None
+    assert re.findall(r'"(\w+)"', listed[1]) == [*separations.WITH]
+
+
+# What Coq's answer is taken for.
+
+PRINTED = (CHECKOUT / "tests" / "formal.txt").read_text()
+"""What Coq 8.16 prints of the theorems."""
+
+
+def test_all_theorems_are_closed() -> None:
+    assert formal.judged(PRINTED) is None
+    assert [*formal.statements(PRINTED)] == [*formal.THEOREMS]
+
+
+def test_an_axiom_or_a_missing_theorem_is_noticed() -> None:
+    assumed = PRINTED.replace(formal.CLOSED, "Axioms:\nchoice : forall x, x", 1)
+    assert formal.judged(assumed) == "rests on axioms: realizable_171"
+    fewer = PRINTED[: PRINTED.index("exactly_174")]
+    assert formal.judged(fewer) == "not proved: exactly_174"
+    assert formal.judged("") == f"not proved: {', '.join(formal.THEOREMS)}"
+
+
+def test_nothing_in_formal_is_admitted() -> None:
+    """Print Assumptions would tell; this tells where."""
+    words = r"\b(Admitted|admit|Axiom|Axioms|Parameter|Parameters|Conjecture|bypass_check)\b"
+    for path in SOURCES.glob("*.v"):
+        code = re.sub(r"\(\*.*?\*\)", "", path.read_text(), flags=re.DOTALL)
+        assert not re.search(words, code), path.name
+
+
+COMPILED = "mkdir -p build; cp {printed} build/Theorems.out; : > build/Exactly174.out"
+
+
+@needs_scripts
+@pytest.mark.parametrize(
+    ("commands", "wanted"),
+    [
+        (COMPILED, None),
+        (f"{COMPILED}; echo 'x\n     : y\nAxioms:' >> build/Theorems.out", "rests on axioms: x"),
+        ("echo 'File \"build/Valid.v\", line 20:\nError: no.' >&2; exit 2",
+         'does not compile: File "build/Valid.v", line 20: Error: no.'),
+        ("echo 'certificates/5_A.json: this is none' >&2; exit 2",
+         "does not compile: certificates/5_A.json: this is none"),
+        ("exit 2", "does not compile: no message"),
+        ("exit 0", "FileNotFoundError"),
+    ],
+)  # fmt: skip
+def test_programs_on_the_path_are_run(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    outcome: Outcome,
+    commands: str,
+    wanted: str | None,
+) -> None:
+    for name in formal.PROGRAMS:
+        stand_in(tmp_path / name, commands.replace("{printed}", str(CHECKOUT / "tests/formal.txt")))
+    path = f"{tmp_path}:/bin:/usr/bin"
+    monkeypatch.setenv("PATH", path)
+    theorems_alone = replace(outcome, verdicts=(), completeness=())
+    opinion = {
+        own.name: own for own in second_opinions(CHECKOUT, theorems_alone, 1, lambda *_: None)
+    }["Coq"]
+    assert opinion.asked == 1
+    assert len(opinion.faults) == (wanted is not None)
+    assert all(wanted and wanted in fault for fault in opinion.faults)
+
+
+def test_coq_gets_what_the_kernel_read(tmp_path: Path, root: Path) -> None:
+    name = "certificates/5_A.json"
+    assert formal.fault(root, {name: "0" * 64}) == f"{name} is not what the kernel read"
+
+
+def test_without_coq_it_is_said(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv("PATH", str(tmp_path))
+    assert formal.absent() == "coqc is not on the PATH; see CHECKING.md, section 13"
+
+
+# Coq itself.
+
+COQ = shutil.which("coqc") and shutil.which("make")
+coq = [
+    pytest.mark.slow,
+    pytest.mark.skipif(COQ is None, reason="Coq is not installed (Debian: coq)"),
+    pytest.mark.xdist_group("formal"),
+]
+
+
+def with_coq(test: Any) -> Any:
+    for mark in coq:
+        test = mark(test)
+    return test
+
+
+@pytest.fixture(scope="module")
+def built(tmp_path_factory: pytest.TempPathFactory, outcome: Outcome) -> Path:
+    """Return a folder with everything compiled."""
+    folder = tmp_path_factory.mktemp("formal")
+    assert formal.prepare(CHECKOUT, outcome.files, folder) is None
+    done = formal.build(folder)
+    assert done.returncode == 0, done.stderr
+    return folder
+
+
+def printed(folder: Path) -> str:
+    return "".join((folder / "formal/build" / name).read_text() for name in formal.OUTPUT)
+
+
+@with_coq
+def test_every_theorem_is_proved_without_an_axiom(built: Path) -> None:
+    """The statements are pinned, too, but as Coq 8.16 prints them."""
+    found = formal.statements(printed(built))
+    assert [*found] == [*formal.THEOREMS]
+    assert {assumptions for _, assumptions in found.values()} == {formal.CLOSED}
+    version = subprocess.run(["coqc", "--version"], capture_output=True, text=True, check=True)
+    if "8.16" in version.stdout:
+        assert printed(built) == PRINTED
+
+
+def flip(path: Path, question: str) -> None:
+    """Change the sign of a coordinate of the last vertex."""
+    document = json.loads(path.read_text())
+    point = document[question]["points"][7]
+    axis = next(axis for axis, x in enumerate(point) if x)
+    point[axis] = -point[axis] if isinstance(point[axis], int) else f"-{point[axis]}"
+    path.write_text(json.dumps(document))
+
+
+def drop(path: Path) -> None:
+    """Leave out the last hint of the last step, which ends in the contradiction."""
+    lines = path.read_text().splitlines()
+    words = lines[-1].split()
+    lines[-1] = " ".join([*words[:-2], words[-1]])
+    path.write_text("\n".join(lines) + "\n")
+
+
+def claim(path: Path, question: str) -> None:
+    """Say that a pattern has no answer, where it has one."""
+    document = json.loads(path.read_text())
+    document[question] = {"answer": "open"}
+    path.write_text(json.dumps(document))
+
+
+SPOILED: Mapping[str, tuple[str, Callable[[Path], None]]] = {
+    "Realizable": ("certificates/15_C.json", lambda path: flip(path, "realizable")),
+    "Convex": ("certificates/8_E.json", lambda path: flip(path, "convex")),
+    "Valid": ("certificates/5_A.json", lambda path: flip(path, "valid")),
+    "NotRealizable": ("proofs/15_A.realizable.lrat", drop),
+    "NotConvex": ("proofs/15_G.convex.lrat", drop),
+    "NotValid": ("formal/proofs/15_K.lrat", drop),
+    "Exactly174": ("proofs/complete.a.lrat", drop),
+}
+"""A module that must not compile, and what is done to which file."""
+
+
+@with_coq
+@pytest.mark.parametrize("module", SPOILED)
+def test_a_spoiled_file_breaks_the_build(built: Path, tmp_path: Path, module: str) -> None:
+    folder = tmp_path / "spoiled"
+    shutil.copytree(built, folder)
+    name, spoil = SPOILED[module]
+    spoil(folder / name)
+    done = formal.build(folder, f"build/{module}.vo")
+    assert done.returncode != 0
+    assert f'File "build/{module}.v"' in formal.refusal(done.stderr)
+
+
+@with_coq
+def test_an_answer_less_is_a_theorem_less(built: Path, tmp_path: Path) -> None:
+    """Though each of the others is still proved."""
+    folder = tmp_path / "spoiled"
+    shutil.copytree(built, folder)
+    claim(folder / "certificates/15_E.json", "valid")
+    done = formal.build(folder)
+    assert done.returncode != 0
+    assert 'File "build/Theorems.v"' in formal.refusal(done.stderr)
