@@ -2,7 +2,7 @@
 
     The proofs refute the formula with the clauses "corners", "edges" and, for the fifteen patterns
     listed here, "separations", which hold over fields with intermediate values of cubic
-    polynomials. What is not realizable carries no valid hexahedron either.
+    polynomials.
 
     Where the Python kernel's refutation rests on its family "sections", that is, on the fact that a
     plane section of an embedded ball is a disc, another proof is taken, from the folder
@@ -10,7 +10,7 @@
 
 From Coq Require Import List Bool String Permutation.
 From Certify Require Import Definitions Barycentric Lrat Integral Pattern Formula Signs Polynomials.
-From Certify Require Import Jacobian Separation NotRealizable.
+From Certify Require Import Jacobian Separation.
 From Certify Require Import Catalogue Refutations_valid.
 Import ListNotations.
 
@@ -70,7 +70,7 @@ Qed.
 
 Lemma not_valid_tested :
   let db := axioms_loaded in
-  all_two (fun x r => is_no (claimed_realizable x) ||
+  all_two (fun x r =>
       starts_at_boundary (tetrahedra x) (first (tetrahedra x)) &&
       refuted_with (corners ++ edges ++
         (if needs_separations x then separations else polynomial_clauses (fst r)))
@@ -84,15 +84,13 @@ Theorem valid_no x : In x catalogue -> claimed_valid x = No ->
 Proof.
   intros i e K enough p [real side jac]. destruct (all_two_sound _ _ _ _ _ not_valid_tested x) as [r h].
   - apply filter_In. now rewrite e.
-  - apply orb_true_iff in h as [h | h].
-    + apply (realizable_no x i) in real; auto. now destruct (claimed_realizable x).
-    + apply andb_true_iff in h as [hf h].
-      pose proof (first_positive K p _ real side hf) as first_pos.
-      apply (refuted_with_sound K p true _ real _ _ first_pos) in h; auto.
-      intros c ic. rewrite !in_app_iff in ic. destruct ic as [ic | [ic | ic]].
-      * now apply corners_sound.
-      * now apply edges_sound.
-      * destruct (needs_separations x).
-        -- destruct enough as [cubic | no]; [| discriminate]. now apply (separations_sound K cubic).
-        -- now apply (polynomial_clauses_sound K p true (fst r)).
+  - apply andb_true_iff in h as [hf h].
+    pose proof (first_positive K p _ real side hf) as first_pos.
+    apply (refuted_with_sound K p true _ real _ _ first_pos) in h; auto.
+    intros c ic. rewrite !in_app_iff in ic. destruct ic as [ic | [ic | ic]].
+    + now apply corners_sound.
+    + now apply edges_sound.
+    + destruct (needs_separations x).
+      * destruct enough as [cubic | no]; [| discriminate]. now apply (separations_sound K cubic).
+      * now apply (polynomial_clauses_sound K p true (fst r)).
 Qed.

@@ -4,9 +4,9 @@
 
 prints one module; the folder is the one that holds certificates/ and proofs/. Nothing that this
 program does needs to be trusted, but for one thing: that the module Catalogue says what the
-certificates say. Points and proofs are checked inside Coq, whoever made them. For sixteen patterns
-the folder proofs beside this file has other proofs, see NotValid.v. It shares no code with the
-Python package.
+certificates say. Points and proofs are checked inside Coq, whoever made them. In the place of
+seventeen proofs it takes others, from the folder proofs beside this file, see NotValid.v. It shares
+no code with the Python package.
 
 Only names and numbers of the files come into a module, so that no file can say anything else to
 Coq. A file that is not what it should be ends the program with one line.
@@ -18,6 +18,7 @@ import re
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
+from hashlib import sha256
 from math import lcm
 from pathlib import Path
 from typing import Any
@@ -48,6 +49,8 @@ def certificate(path: Path) -> Said:
             require(said[question]["answer"] in ("yes", "no", "open"))
             for point in said[question].get("points", ()):
                 require(len(point) == 3 and all(map(is_rational, point)))
+            if said[question]["answer"] == "no":
+                require(re.fullmatch(r"[0-9a-f]{64}", said[question]["sha256"]))
             for final in said[question].get("final_polynomials", ()):
                 for quadruple, sign in final["signs"].items():
                     require(re.fullmatch(r"[1-8]{4}", quadruple) and sign in (-1, 0, 1))
@@ -77,12 +80,17 @@ def answered(root: Path, question: str, answer: str) -> list[Said]:
     return [c for c in certificates(root) if c[question]["answer"] == answer]
 
 
-def proof_file(root: Path, pattern: str, question: str) -> Path:
-    """Return the proof of a no: one made for Coq if there is one, else the certificate's."""
-    own = Path(__file__).resolve().parent / "proofs" / f"{pattern}.lrat"
-    if question == "valid" and own.exists():
-        return own
-    return root / "proofs" / f"{pattern}.{question}.lrat"
+def proof_file(root: Path, said: Said, question: str) -> Path:
+    """Return the proof of a no: one made for Coq if there is one, else the certificate's.
+
+    That must be there in any case, with the digest that the certificate states.
+    """
+    name = said["pattern"]
+    path = root / "proofs" / f"{name}.{question}.lrat"
+    if not path.is_file() or sha256(path.read_bytes()).hexdigest() != said[question]["sha256"]:
+        sys.exit(f"{path}: this is not the proof that the certificate states")
+    own = Path(__file__).resolve().parent / "proofs" / f"{name}.lrat"
+    return own if question == "valid" and own.exists() else path
 
 
 def lrat_steps(path: Path) -> Iterator[tuple[str, list[str], list[str]]]:
@@ -214,7 +222,7 @@ def refutations(question: str) -> Callable[[Path], str]:
         definitions, items = [], []
         for c in answered(root, question, "no"):
             name = f"{question}_{c['pattern']}"
-            steps = proof(proof_file(root, c["pattern"], question))
+            steps = proof(proof_file(root, c, question))
             final = map(polynomial, c[question].get("final_polynomials", ()))
             definitions += [
                 f"Definition proof_{name} : list step := [\n  {steps[1:]}.\n",

@@ -10,6 +10,7 @@ import pytest
 from certify.kernel.certificate import Certificate, Yes
 from certify.kernel.check import Verdict
 from certify.kernel.theorems import Outcome
+from certify.opinions import formal
 from certify.opinions.outside import PROGRAMS
 from certify.opinions.second import Opinion, second_opinions
 from tests.commands import CHECKOUT, needs_scripts, run, stand_in
@@ -104,9 +105,12 @@ def test_programs_on_the_path_are_asked(
 
 
 @pytest.mark.slow
-def test_command() -> None:
+def test_command(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without Coq, which tests/test_formal.py asks."""
+    monkeypatch.setattr(formal, "PROGRAMS", ("no-such-program",))
     code, out, _ = run(CHECKOUT, "check-all", "--second-opinion", "--jobs", "2")
     assert code == 0
     assert "agrees: balls: 174 of 174, " in out
     assert "agrees: completeness: 7 of 7, " in out
+    assert "did not run: Coq: no-such-program is not on the PATH" in out
     assert "differs" not in out
