@@ -218,6 +218,15 @@ def test_the_proofs_for_coq_are_those_that_need_sections(
     assert re.findall(r'"(\w+)"', listed[1]) == [*separations.WITH]
 
 
+def test_the_lemmas_that_the_document_names_are_there() -> None:
+    chapter = (CHECKOUT / "CHECKING.md").read_text().split("## 13 ")[-1].split("## 14 ")[0]
+    named = re.findall(r"`(\w+\.v): (\w+)`", chapter)
+    assert len(named) > 20
+    for file, lemma in named:
+        assert re.search(rf"^(Lemma|Theorem) {lemma}\b", (SOURCES / file).read_text(), re.M), lemma
+    assert {*re.findall(r"^\| `(\w+)` \|", chapter, re.M)} == {*formal.THEOREMS}
+
+
 # What Coq's answer is taken for.
 
 PRINTED = (CHECKOUT / "tests" / "formal.txt").read_text()
