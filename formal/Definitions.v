@@ -1,8 +1,9 @@
 (** * What is claimed, in words of geometry
 
     Nothing is proved in this file. Whoever believes Coq, and finds here what he or she calls a
-    realization, a convex position and a valid hexahedron, can believe the theorems in Theorems.v
-    without reading anything else. *)
+    realization, a convex position and a valid hexahedron, can believe the statements in Theorems.v
+    without reading a proof. Besides, one reads what an ordered field is (in Field.v), and what a
+    pattern says (Pattern.v). *)
 
 From Coq Require Import List Permutation.
 From Certify Require Export Field.
@@ -131,7 +132,7 @@ Definition positive_jacobian (p : vertex -> point) : Prop :=
     tetrahedron only. *)
 Definition not_mirrored (T : list tetrahedron) (p : vertex -> point) : Prop :=
   forall t a b c d, In t T -> In (a, b, c) facet_triangles -> Permutation [a; b; c; d] (vertices t) ->
-    (forall u, In u T -> incl [a; b; c] (vertices u) -> u = t) ->
+    (forall u, In u T -> incl [a; b; c] (vertices u) -> Permutation (vertices u) (vertices t)) ->
     0 < det (p a) (p b) (p c) (p d).
 
 (** For some patterns one more property of K is assumed: that a cubic polynomial takes the value 0

@@ -3,8 +3,8 @@
     The clauses that the signs of all determinants satisfy wherever eight points realize a pattern:
     the families of section 4 of FORMAT.md as Coq functions, in the same order, so that the proofs
     refer to the right clauses by their numbers. Why the clauses hold is the subject of other files
-    (Signs.v, Convex.v, Jacobian.v, Polynomials.v); were a function wrong here, either those proofs
-    or the replay would fail.
+    (Signs.v, Convex.v, Jacobian.v, Polynomials.v, Separation.v): every clause that a function here
+    gives is proved true there. That none is missing that a proof uses, the replay shows.
 
     A literal speaks of four vertices in any order. Exchanging two of them changes the sign of the
     determinant, so that signs of coefficients can be expressed by the order: where a formula has

@@ -68,10 +68,6 @@ Proof.
   destruct s as [[[a b] c] d], t as [[[a' b'] c'] d']; simpl.
   rewrite !andb_true_iff, !same_vertex_iff. intuition congruence.
 Qed.
-Lemma same_tetrahedron_refl t : same_tetrahedron t t = true.
-Proof.
-  destruct t as [[[a b] c] d]; simpl. rewrite !andb_true_iff, !same_vertex_iff. auto.
-Qed.
 Definition mem (v : vertex) (l : list vertex) : bool := existsb (same_vertex v) l.
 Lemma mem_iff v l : mem v l = true <-> In v l.
 Proof.
@@ -183,7 +179,7 @@ Definition convex_test : bool := forallb extreme_test all_vertices.
 Definition not_mirrored_test (T : list tetrahedron) : bool :=
   forallb (fun t => forallb (fun f => let '(a, b, c) := f in
     negb (contains t [a; b; c]) ||
-    existsb (fun u => negb (same_tetrahedron u t) && contains u [a; b; c]) T ||
+    existsb (fun u => contains u [a; b; c] && negb (contains u (vertices t))) T ||
     forallb (fun d => mem d [a; b; c] || (0 <? zdet (p a) (p b) (p c) (p d))) (vertices t))
     facet_triangles) T.
 End Tests.
@@ -384,7 +380,8 @@ Proof.
   { apply contains_iff. intros v hv. apply i. simpl in *; tauto. }
   rewrite in_t in h. simpl negb in h. apply orb_true_iff in h as [h | h].
   - exfalso. apply existsb_exists in h as (u & iu & h). apply andb_true_iff in h as [h1 h2].
-    apply contains_iff, (only u iu) in h2 as ->. now rewrite same_tetrahedron_refl in h1.
+    apply contains_iff, (only u iu) in h1. apply negb_true_iff, not_true_iff_false in h2. apply h2.
+    apply contains_iff. intro v. apply Permutation_in. now apply Permutation_sym.
   - rewrite forallb_forall in h. specialize (h d (i d ltac:(simpl; tauto))).
     unfold imaged. rewrite image_det. apply phi_pos, Z.ltb_lt.
     apply orb_true_iff in h as [h | h]; auto. exfalso. apply mem_iff in h.

@@ -23,7 +23,7 @@ Definition vertex_at (a b c : bool) : vertex :=
   | true, true, true => V7 | false, true, true => V8
   end.
 
-(** i = 0, 1, 2 as a sum of two bit_pairs. *)
+(** i = 0, 1, 2 as a sum of two bits. *)
 Inductive index : Type := I0 | I1 | I2.
 Definition bit_pairs (i : index) : list (bool * bool) :=
   match i with

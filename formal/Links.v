@@ -83,7 +83,7 @@ Proof.
   - apply Permutation_cons_append with (l := [x; y]).
   - apply Permutation_rev with (l := [z; y; x]).
 Qed.
-Lemma no_point D c f : ~ point D c -> In c f -> covers D f = false.
+Lemma no_vertex D c f : ~ has_vertex D c -> In c f -> covers D f = false.
 Proof.
   intros h i. apply not_true_iff_false. intro k. apply covers_iff in k as ([[x y] z] & j & k).
   rewrite subset_iff in k. apply k in i. apply h.
@@ -128,7 +128,7 @@ Proof.
   - assert (n : NoDup [a; b; c]) by apply (nodup (a, b, c) (or_introl eq_refl)).
     change 1 with (1 + 0). apply euler_glue with (n := [c]); [| | now apply (euler_new a b c)].
     + intros k f i h. rewrite subset_cons, andb_true_r. destruct (mem c f) eqn:m.
-      * apply mem_iff in m. now apply (no_point D c).
+      * apply mem_iff in m. now apply (no_vertex D c).
       * apply mem_false in m. apply (rim_covers D a b); auto. rewrite subset_iff in *.
         intros v j. specialize (h v j). simpl in *. intuition congruence.
     + apply IH. intros t i. apply nodup. now right.

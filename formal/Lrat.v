@@ -70,13 +70,17 @@ Fixpoint propagate (db : P.t clause) (hints : list positive) (a : P.t bool) : bo
 Definition falsify (c : clause) : P.t bool :=
   fold_left (fun a l => make_true (- l) a) c (P.empty bool).
 
-(** Replay a proof; its last step must add the empty clause. *)
+(** Replay a proof; its last step, and no other, must add the empty clause. *)
 Fixpoint replay (db : P.t clause) (proof : list step) : bool :=
   match proof with
   | [] => false
   | Step n c hints :: proof' =>
       if propagate db hints (falsify c)
-      then match c with [] => true | _ => replay (P.add n c db) proof' end
+      then match c, proof' with
+           | [], [] => true
+           | [], _ => false
+           | _, _ => replay (P.add n c db) proof'
+           end
       else false
   end.
 
@@ -86,6 +90,14 @@ Fixpoint load (n : positive) (cs : list clause) (db : P.t clause) : P.t clause :
 
 Definition refutes (cs : list clause) (proof : list step) : bool :=
   replay (load 1 cs (P.empty clause)) proof.
+
+Example a_refutation : refutes [[1]; [-1]]%Z [Step 3 [] [1; 2]]%positive = true.
+Proof. reflexivity. Qed.
+Example nothing_may_follow :
+  refutes [[1]; [-1]]%Z [Step 3 [] [1; 2]; Step 4 [5%Z] [1; 2]]%positive = false.
+Proof. reflexivity. Qed.
+Example a_hint_is_missing : refutes [[1]; [-1]]%Z [Step 3 [] [1]]%positive = false.
+Proof. reflexivity. Qed.
 
 (** ** Its soundness *)
 

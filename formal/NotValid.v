@@ -1,24 +1,18 @@
 (** * 31 patterns carry no valid hexahedron
 
-    The proofs refute the formula with the clauses "corners", "edges" and, for the fifteen patterns
-    listed here, "separations", which hold over fields with intermediate values of cubic
-    polynomials.
+    The proofs refute the formula with the clauses "corners" and "edges" and, for 15_G, that of a final
+    polynomial; for fifteen patterns also with the clauses "separations". These last ones hold over
+    fields with intermediate values of cubic polynomials.
 
     Where the Python kernel's refutation rests on its family "sections", that is, on the fact that a
     plane section of an embedded ball is a disc, another proof is taken, from the folder
     formal/proofs/. *)
 
-From Coq Require Import List Bool String Permutation.
+From Coq Require Import List Bool Permutation.
 From Certify Require Import Definitions Barycentric Lrat Integral Pattern Formula Signs Polynomials.
 From Certify Require Import Jacobian Separation.
 From Certify Require Import Catalogue Refutations_valid.
 Import ListNotations.
-
-Definition uses_separations : list string :=
-  ["11_AD"; "11_AE"; "12_M"; "12_N"; "12_T"; "12_W"; "13_AA"; "13_AB"; "13_C"; "13_L"; "13_Y"; "13_Z";
-   "14_Q"; "14_S"; "15_K"]%string.
-Definition needs_separations (x : pattern) : bool :=
-  existsb (String.eqb (name x)) uses_separations.
 
 (** ** The sign of the first tetrahedron
 
@@ -53,8 +47,8 @@ Proof.
     + exact (volume_nodup K p _ nq).
     + exact (volume_nodup K p _ nt).
     + intro v. symmetry. apply same.
-  - intros u iu ic. apply same_tetrahedron_eq. apply contains_iff in ic.
-    specialize (only u iu). now rewrite ic in only.
+  - intros u iu ic. apply contains_iff in ic. specialize (only u iu). rewrite ic in only.
+    now apply same_tetrahedron_eq in only as ->.
 Qed.
 Lemma first_positive (K : ordered_field) (p : vertex -> point K) T : realizes T p -> not_mirrored T p ->
   starts_at_boundary T (first T) = true -> forall q, first T = Some q -> has p true q true.
@@ -73,13 +67,13 @@ Lemma not_valid_tested :
   all_two (fun x r =>
       starts_at_boundary (tetrahedra x) (first (tetrahedra x)) &&
       refuted_with (corners ++ edges ++
-        (if needs_separations x then separations else polynomial_clauses (fst r)))
+        (if needs_intermediate_values x then separations else polynomial_clauses (fst r)))
         db (tetrahedra x) (snd r))
     (filter (fun x => is_no (claimed_valid x)) catalogue) valid_refutations = true.
 Proof. vm_cast_no_check (eq_refl true). Qed.
 
 Theorem valid_no x : In x catalogue -> claimed_valid x = No ->
-  forall K : ordered_field, cubic_intermediate_values K \/ needs_separations x = false ->
+  forall K : ordered_field, cubic_intermediate_values K \/ needs_intermediate_values x = false ->
   forall p : vertex -> point K, ~ valid (tetrahedra x) p.
 Proof.
   intros i e K enough p [real side jac]. destruct (all_two_sound _ _ _ _ _ not_valid_tested x) as [r h].
@@ -90,7 +84,7 @@ Proof.
     intros c ic. rewrite !in_app_iff in ic. destruct ic as [ic | [ic | ic]].
     + now apply corners_sound.
     + now apply edges_sound.
-    + destruct (needs_separations x).
+    + destruct (needs_intermediate_values x).
       * destruct enough as [cubic | no]; [| discriminate]. now apply (separations_sound K cubic).
       * now apply (polynomial_clauses_sound K p true (fst r)).
 Qed.

@@ -1,7 +1,8 @@
 (** * The rational numbers are an ordered field
 
-    So every theorem holds for rational points. (Coq's own real numbers rest on axioms and are left
-    out; any construction of the reals that satisfies the laws of Field.v is covered.) *)
+    So every theorem for every ordered field holds for rational points. (Coq's own real numbers rest
+    on axioms and are left out; any construction of the reals that satisfies the laws of Field.v is
+    covered.) *)
 
 From Coq Require Import QArith Qcanon.
 From Certify Require Import Field.

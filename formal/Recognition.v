@@ -356,6 +356,14 @@ Proof.
   induction l as [| x l IH]; simpl; auto. rewrite IH. f_equal. clear IH.
   induction l; simpl; congruence.
 Qed.
+Lemma all_differ_nodup A (of : A -> list tetrahedron) l : all_differ (map of l) = true -> NoDup l.
+Proof.
+  unfold all_differ. rewrite !all_pairs_map. cbn [fst snd].
+  induction l as [| x l IH]; [constructor |]. cbn [all_pairs]. rewrite andb_true_iff, forallb_forall.
+  intros [h1 h2]. constructor; auto. intro i. apply h1, negb_true_iff, not_true_iff_false in i.
+  apply i, any_exists. exists (code (of x)). split; [| apply Pos.eqb_refl].
+  apply orbit_complete, equivalent_refl.
+Qed.
 Lemma all_differ_sound A (of : A -> list tetrahedron) l : all_differ (map of l) = true ->
   forall x y, In x l -> In y l -> equivalent (of x) (of y) -> x = y.
 Proof.

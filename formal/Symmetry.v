@@ -94,6 +94,11 @@ Qed.
 
 (** ** [equivalent] is an equivalence *)
 
+Theorem equivalent_refl T : equivalent T T.
+Proof.
+  exists (fun v => v). split; [| tauto]. split; auto. intros f i. exists f. split; auto.
+  now rewrite map_id.
+Qed.
 Theorem equivalent_sym T U : equivalent T U -> equivalent U T.
 Proof.
   intros (s & h & k). destruct (inverse s h) as (r & h' & e & e'). exists r. split; auto.
@@ -176,13 +181,14 @@ Proof.
 Qed.
 Lemma edge_map D a b : edge (map (relabel_triangle s) D) (s a) (s b) -> edge D a b.
 Proof. intros (c & h). exists (r c). rewrite <- (undo' c) in h. now apply face_relabel. Qed.
-Lemma point_map D a : point (map (relabel_triangle s) D) (s a) -> point D a.
+Lemma has_vertex_map D a :
+  has_vertex (map (relabel_triangle s) D) (s a) -> has_vertex D a.
 Proof. intros (b & h). exists (r b). rewrite <- (undo' b) in h. now apply edge_map. Qed.
 Lemma disc_map D : disc D -> disc (map (relabel_triangle s) D).
 Proof.
   induction 1 as [a b c n | D a b c d IH h k | D a b c d IH h h' ne k]; simpl.
   - constructor. now apply (map_nodup [a; b; c]).
-  - apply glue_one_edge; auto using rim_map. intro j. now apply k, point_map.
+  - apply glue_one_edge; auto using rim_map. intro j. now apply k, has_vertex_map.
   - apply glue_two_edges; auto using rim_map.
     + intro e. apply ne, injective, e.
     + intro j. now apply k, edge_map.

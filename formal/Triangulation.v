@@ -66,12 +66,12 @@ Definition cycle (joined : vertex -> vertex -> Prop) : Prop :=
     one triangle, which can be taken off; or go on in this part, with the triangle next to u in
     the place of t.) *)
 Definition edge (D : list triangle) (a b : vertex) : Prop := exists c, face D a b c.
-Definition point (D : list triangle) (a : vertex) : Prop := exists b, edge D a b.
+Definition has_vertex (D : list triangle) (a : vertex) : Prop := exists b, edge D a b.
 Definition rim (D : list triangle) (a b : vertex) : Prop := exists! c, face D a b c.
 
 Inductive disc : list triangle -> Prop :=
 | one_triangle a b c : NoDup [a; b; c] -> disc [(a, b, c)]
-| glue_one_edge D a b c : disc D -> rim D a b -> ~ point D c -> disc ((a, b, c) :: D)
+| glue_one_edge D a b c : disc D -> rim D a b -> ~ has_vertex D c -> disc ((a, b, c) :: D)
 | glue_two_edges D a b c :
     disc D -> rim D a b -> rim D b c -> a <> c -> ~ edge D a c -> disc ((a, b, c) :: D).
 

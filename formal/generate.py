@@ -23,6 +23,8 @@ from math import lcm
 from pathlib import Path
 from typing import Any
 
+FORMAT = "certify-pattern/1"
+
 QUESTIONS = ("realizable", "convex", "valid")
 
 Said = dict[str, Any]
@@ -42,6 +44,7 @@ def certificate(path: Path) -> Said:
     """Return what a certificate says, after a look at everything that is taken from it."""
     try:
         said: Said = json.loads(path.read_text("utf-8"))
+        require(said["format"] == FORMAT and said["pattern"] == path.stem)
         require(re.fullmatch(r"[0-9]{1,2}_[A-Z]{1,2}", said["pattern"]))
         for four in said["tetrahedra"]:
             require(len(four) == 4 and all(type(v) is int and 1 <= v <= 8 for v in four))

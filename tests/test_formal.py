@@ -1,6 +1,7 @@
 """The theorems in Coq: what is generated, what Coq says of it, and that spoiled files break it."""
 
 import json
+import os
 import re
 import shutil
 import subprocess
@@ -125,6 +126,8 @@ def test_completeness_is_asked_of_the_same_boundary_and_list(
 
 
 SPOILED_CERTIFICATES: dict[str, Callable[[dict[str, Any]], object]] = {
+    "another's name": lambda c: c.update(pattern="6_A"),
+    "another format": lambda c: c.update(format="certify-pattern/2"),
     "a name that says more": lambda c: c.update(pattern='5_A" Yes Yes Yes []. Axiom a : False. (*'),
     "a vertex that says more": lambda c: c["tetrahedra"][0].__setitem__(
         0, "1). Axiom a : False. (*"
@@ -213,7 +216,7 @@ def test_the_proofs_for_coq_are_those_that_need_sections(
         if (v.answers["valid"], v.answers["convex"]) == ("no", "yes")
     }  # fmt: skip
     assert set(separations.WITH) == convex
-    listed = re.search(r"uses_separations[^[]*\[([^]]*)\]", (SOURCES / "NotValid.v").read_text())
+    listed = re.search(r"uses_intermediate_values[^[]*\[([^]]*)\]", code("Pattern.v"))
     assert listed is not None
     assert re.findall(r'"(\w+)"', listed[1]) == [*separations.WITH]
 
@@ -246,12 +249,44 @@ def test_an_axiom_or_a_missing_theorem_is_noticed() -> None:
     assert formal.judged("") == f"not proved: {', '.join(formal.THEOREMS)}"
 
 
+def code(name: str) -> str:
+    """Return a file without its comments, with single spaces."""
+    text = re.sub(r"\(\*.*?\*\)", "", (SOURCES / name).read_text(), flags=re.DOTALL)
+    return " ".join(text.split())
+
+
 def test_nothing_in_formal_is_admitted() -> None:
     """Print Assumptions would tell; this tells where."""
     words = r"\b(Admitted|admit|Axiom|Axioms|Parameter|Parameters|Conjecture|bypass_check)\b"
     for path in SOURCES.glob("*.v"):
-        code = re.sub(r"\(\*.*?\*\)", "", path.read_text(), flags=re.DOTALL)
-        assert not re.search(words, code), path.name
+        assert not re.search(words, code(path.name)), path.name
+
+
+READ = {
+    "Field.v": "59c987f7c9e1aae2",
+    "Definitions.v": "7c6682f005074b67",
+    "Triangulation.v": "ea75aec3329f3bb4",
+    "Pattern.v": "5f1f72197cf46f42",
+}
+"""The digest of what section 13 says has to be read. Whoever changes one reads it again first."""
+
+
+def test_the_definitions_are_those_that_were_read() -> None:
+    """A theorem with a weaker definition would be closed, too."""
+    read = {name: code(name) for name in READ}
+    read["Field.v"] = read["Field.v"].partition("Lemma")[0]
+    assert {name: sha256(text.encode()).hexdigest()[:16] for name, text in read.items()} == READ
+
+
+@pytest.mark.parametrize(
+    ("name", "last"),
+    [("Theorems.v", "Catalogue Rationals Pattern Definitions"),
+     ("Exactly174.v", "Catalogue Pattern Triangulation")],
+)  # fmt: skip
+def test_the_words_of_the_statements_are_those_of_the_definitions(name: str, last: str) -> None:
+    """What is imported last hides what others call the same."""
+    assert re.findall(r"From Certify Require Import ([\w ]+)\.", code(name))[-1] == last
+    assert code("Triangulation.v").count("Require Export Definitions.") == 1
 
 
 COMPILED = "mkdir -p build; cp {printed} build/Theorems.out; : > build/Exactly174.out"
@@ -301,6 +336,35 @@ def test_without_coq_it_is_said(monkeypatch: pytest.MonkeyPatch, tmp_path: Path)
     assert formal.absent() == "coqc is not on the PATH; see CHECKING.md, section 13"
 
 
+@needs_scripts
+@pytest.mark.skipif(shutil.which("make") is None, reason="make is not installed")
+def test_what_is_built_is_what_the_files_say_not_what_is_newer(everything: Path) -> None:
+    """Modules are replaced if they differ, and only then."""
+    bin_ = everything / "bin"
+    bin_.mkdir()
+    for name in ("coqc", "coqdep"):
+        stand_in(bin_ / name, "exit 0")
+    folder = everything / "formal"
+    shutil.copytree(SOURCES, folder, ignore=shutil.ignore_patterns("build", "__pycache__"))
+
+    def built() -> dict[str, tuple[int, bytes]]:
+        command = ["make", f"PYTHON={sys.executable}", "build/Catalogue.v", "build/Points_valid.v"]
+        environment = {"PATH": f"{bin_}:/usr/bin:/bin", "PYTHONDONTWRITEBYTECODE": "1"}
+        subprocess.run(command, cwd=folder, check=True, capture_output=True, env=environment)
+        return {
+            path.name: (path.stat().st_mtime_ns, path.read_bytes())
+            for path in (folder / "build").glob("*.v")
+        }
+
+    first = built()
+    assert built() == first
+    certificate = everything / "certificates" / "5_A.json"
+    flip(certificate, "valid")
+    os.utime(certificate, (0, 0))
+    changed = built()
+    assert {name for name in first if changed[name] != first[name]} == {"Points_valid.v"}
+
+
 # Coq itself.
 
 COQ = shutil.which("coqc") and shutil.which("make")
@@ -315,6 +379,16 @@ def with_coq(test: Any) -> Any:
     for mark in coq:
         test = mark(test)
     return test
+
+
+@pytest.mark.skipif(COQ is None, reason="Coq is not installed (Debian: coq)")
+def test_the_definitions_compile(tmp_path: Path) -> None:
+    """All else that asks Coq is slow: ``python -m pytest -m slow``."""
+    for name in ("Field", "Definitions", "Triangulation"):
+        shutil.copy(SOURCES / f"{name}.v", tmp_path)
+        command = ["coqc", "-q", "-R", ".", "Certify", f"{name}.v"]
+        done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stderr
 
 
 @pytest.fixture(scope="module")
