@@ -201,7 +201,16 @@ def cube_seen() -> tuple[Spot, ...]:
     return viewed(CUBE, frozenset(combinations(VERTICES, 2)))
 
 
+MAX_BITS = 200
+"""With so many, even the squares of areas are floating-point numbers."""
+
+
 def _whole(spots: Sequence[Spot]) -> tuple[Spot, ...]:
-    """Return the points, all stretched by their common denominator: integers are faster."""
+    """Return the points, all stretched by their common denominator: integers are faster.
+
+    Unless that is so large that they would be far from any floating-point number.
+    """
     scale = lcm(*(Fraction(x).denominator for spot in spots for x in spot))
+    if scale.bit_length() > MAX_BITS:
+        return tuple(spots)
     return tuple(tuple(int(x * scale) for x in spot) for spot in spots)
