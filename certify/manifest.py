@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
 
+import certify.kernel
 from certify.kernel.evidence import Malformed, default_root, kernel_files, read_file
 from certify.kernel.theorems import Outcome
 
@@ -54,7 +55,7 @@ def compare(root: Path, outcome: Outcome) -> Manifest | None:
     return Manifest(
         sum(found.get(name) == digest for name, digest in listed.items()),
         kernel,
-        tuple(_differences(listed, found)),
+        tuple(_differences(root, listed, found)),
     )
 
 
@@ -67,7 +68,7 @@ def evidence(root: Path) -> list[str]:
     )
 
 
-def _differences(listed: Mapping[str, str], found: Mapping[str, str]) -> Iterator[str]:
+def _differences(root: Path, listed: Mapping[str, str], found: Mapping[str, str]) -> Iterator[str]:
     for name in sorted(listed.keys() | found.keys()):
         printed = ascii(name)[1:-1]
         if name not in found:
@@ -75,11 +76,24 @@ def _differences(listed: Mapping[str, str], found: Mapping[str, str]) -> Iterato
         elif name not in listed:
             yield f"{printed} is not in {NAME}"
         elif listed[name] != found[name]:
-            yield f"{printed} is not the one in {NAME}"
+            reason = "; its line ends were converted" * _converted(root, name, listed[name])
+            yield f"{printed} is not the one in {NAME}{reason}"
+
+
+def _converted(root: Path, name: str, digest: str) -> bool:
+    """Would a file have the digest, had its lines no carriage returns at their ends?"""
+    own = Path(certify.kernel.__file__).parent / Path(name).name
+    try:
+        content = read_file(own if name.startswith(KERNEL) else root / name, MAX_BYTES)
+    except Malformed:
+        return False
+    return sha256(content.replace(b"\r\n", b"\n")).hexdigest() == digest
 
 
 def _listed(content: bytes) -> dict[str, str]:
     """Return file -> SHA-256, or raise Malformed."""
+    if b"\r\n" in content:
+        raise Malformed(f"{NAME}: its line ends were converted")
     listed: dict[str, str] = {}
     lines = content.decode("utf-8", "replace").removesuffix("\n").split("\n")
     for number, line in enumerate(lines, start=1):

@@ -81,6 +81,36 @@ def test_a_journal(tmp_path: Path) -> None:
     assert_rejects(other, "journal", "is not the journal of a census of this mesh")
 
 
+@pytest.mark.parametrize("option", ["--save", "--journal"])
+def test_the_mesh_is_never_replaced(cube: Path, option: str) -> None:
+    content = cube.read_bytes()
+    words = run(CHECKOUT, "census", str(cube), option, str(cube))
+    assert_usage_error(words, f"{cube} is the file that is read")
+    assert cube.read_bytes() == content
+
+
+def test_a_folder_is_no_target(cube: Path, tmp_path: Path) -> None:
+    (tmp_path / "new.png").mkdir()
+    words = run(CHECKOUT, "census", str(cube), "--plot", str(tmp_path / "new.png"))
+    assert_usage_error(words, f"{tmp_path / 'new.png'} is a folder")
+
+
+@pytest.mark.parametrize("address", ["nonsense", "tcp://host", "host:port", ""])
+def test_what_is_no_address(cube: Path, address: str) -> None:
+    words = run(CHECKOUT, "census", str(cube), "--scheduler", address)
+    assert_usage_error(words, "--scheduler takes an address such as tcp://HOST:8786")
+
+
+def test_cells_that_are_left_out_are_told(tmp_path: Path) -> None:
+    path = tmp_path / "mixed.vtu"
+    points = np.concatenate([CUBE, CUBE + 3])
+    cells = [("tetra", FIVE), ("hexahedron", [[*range(8, 16)]])]
+    meshio.write(path, meshio.Mesh(points, cells))
+    code, out, err = run(CHECKOUT, "census", str(path))
+    assert (code, err) == (0, "left out, as they are no tetrahedra: 1 hexahedron cells\n")
+    assert "1 valid hexahedra" in " ".join(out.split())
+
+
 def test_hexahedra_are_saved(tmp_path: Path) -> None:
     path = tmp_path / "found.vtu"
     code, found = run_json(CHECKOUT, "census", "--random", "200", "--save", str(path))

@@ -356,6 +356,15 @@ def test_the_table_of_lengths(shipped: Path) -> None:
         assert (own["steps"], own["cases"]) == length_of(outlines()[name])
 
 
+def test_a_rejected_certificate_never_makes_the_table_shorter(root: Path) -> None:
+    code, out, _ = run(root, "explain", "--all")
+    assert code == 1
+    assert "\nrejected: certificates/15_B.json: " in out
+    code, out, _ = run(root, "explain", "--all", "--format", "json")
+    assert code == 1
+    assert any("15_B.json" in fault for fault in json.loads(out)["rejected"])
+
+
 @pytest.mark.parametrize(
     ("arguments", "code", "message"),
     [

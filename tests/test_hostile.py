@@ -143,7 +143,13 @@ def test_proofs_of_completeness(tmp_path: Path) -> None:
 
 def test_fractions_as_long_as_they_may_be(tmp_path: Path) -> None:
     root = str(fraction_root(tmp_path / "root"))
-    commands = [("certify", "check-all"), ("certify", "show", "15_E"), ("certify.kernel",)]
+    commands = [
+        ("certify", "check-all"),
+        ("certify", "show", "15_E"),
+        ("certify", "explain", "8_E", "valid"),
+        ("certify", "draw", "8_E", "--to", str(tmp_path / "8_E.svg")),
+        ("certify.kernel",),
+    ]
     asked = [(*command, *(["--root"] * ("kernel" not in command[0])), root) for command in commands]
     for done in run_all(asked):
         assert (done.code, done.err) == (0, "")

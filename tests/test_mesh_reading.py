@@ -93,7 +93,7 @@ def test_single_precision_is_taken_as_it_is(tmp_path: Path) -> None:
     ("points", "cells", "words"),
     [
         (TWO, [("triangle", [[0, 1, 2]])], "there are no solid cells"),
-        (TWO, [("tetra10", [[*range(10)]])], "tetra10 cells are not supported"),
+        (TWO, [("tetra10", [[*range(10)]])], "cell 1 is of the kind tetra10"),
         (TWO, [("tetra", [[0, 1, 2, 12]])], "tetra 1 has vertex 13, with 12 points"),
         (TWO, [("tetra", [*TETRAHEDRA.tolist(), [0, 1, -1, 3]])], "tetra 3 has vertex 0"),
         (TWO, [("tetra", [[0, 1, 2, 1]])], "tetra 1 has a vertex twice"),
@@ -123,6 +123,42 @@ def test_truncated_meshes(tmp_path: Path, ending: str, part: float) -> None:
     path = tmp_path / f"part{ending}"
     path.write_bytes(content[: int(part * len(content))])
     refused(path, read_mesh)
+
+
+@pytest.mark.parametrize("form", ["gmsh22", "gmsh"])
+@pytest.mark.parametrize("binary", [False, True])
+def test_a_gmsh_file_without_its_last_bytes(tmp_path: Path, form: str, binary: bool) -> None:
+    """Without the last digit of a vertex, 18 would be taken for 1."""
+    cells = [("hexahedron", HEXAHEDRA)]
+    whole = write(tmp_path / "whole.msh", TWO, cells, form, binary=binary)
+    content = whole.read_bytes()
+    path = tmp_path / "part.msh"
+    for less in range(2, 60):
+        path.write_bytes(content[:-less])
+        refused(path, read_mesh)
+    path.write_bytes(content + b"\n \n")
+    assert read_mesh(path).cells["hexahedron"].tolist() == HEXAHEDRA.tolist()
+
+
+def test_nastran(tmp_path: Path) -> None:
+    """Without its end, meshio would read it for ever."""
+    whole = write(tmp_path / "whole.bdf", TWO, [("hexahedron", HEXAHEDRA)], "nastran")
+    assert read_mesh(whole).cells["hexahedron"].tolist() == HEXAHEDRA.tolist()
+    path = tmp_path / "part.bdf"
+    for content in (b"BEGIN BULK\n", whole.read_bytes()[:300]):
+        path.write_bytes(content)
+        refused(path, read_mesh, "it is cut off: Nastran's ENDDATA is missing")
+
+
+def test_tecplot_is_not_supported(tmp_path: Path) -> None:
+    path = write(tmp_path / "new.dat", TWO, [("hexahedron", HEXAHEDRA)], "tecplot")
+    refused(path, read_mesh, "files of Tecplot are not supported")
+
+
+def test_a_point_that_is_not_there(tmp_path: Path) -> None:
+    path = write(tmp_path / "new.inp", TWO, [("hexahedron", HEXAHEDRA)], "abaqus")
+    path.write_text(path.read_text().replace("1,2,3,4,5,6,7,8", "1,2,3,4,5,6,7,99"))
+    refused(path, read_mesh, "it names 99, which is not there")
 
 
 @pytest.mark.parametrize("ending", [*WRITERS, ".stl", ".xyz", ".bdf", ".unv", ""])

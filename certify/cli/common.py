@@ -109,6 +109,16 @@ def fail(message: str, code: int) -> NoReturn:
     sys.exit(code)
 
 
+def require_target(target: Path | None, source: Path | None) -> None:
+    """Fail if a file to be written is a folder, or the file that is read."""
+    if target is None:
+        return
+    if target.is_dir():
+        fail(f"{target} is a folder", code=2)
+    if source is not None and target.exists() and source.exists() and target.samefile(source):
+        fail(f"{target} is the file that is read", code=2)
+
+
 def exit_with(ok: bool) -> None:
     """Exit with code 1 unless all is well."""
     if not ok:

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from time import perf_counter
@@ -24,6 +25,7 @@ from certify.cli.common import (
     print_table,
     print_wrapped,
     progress,
+    require_target,
     root_option,
 )
 from certify.printable import printable
@@ -36,6 +38,9 @@ Mesh = tuple[str, Any, Any]
 """Name, points and tetrahedra."""
 
 Show = Callable[[str, int, int], None]
+
+ADDRESS = re.compile(r"(\w+://)?(\[[0-9a-fA-F:]+\]|[^\s:/]+):\d{1,5}/?|inproc://\S+")
+"""What Dask understands; with anything else its threads outlive the error."""
 
 
 @click.command(
@@ -76,7 +81,7 @@ Show = Callable[[str, int, int], None]
     "--save",
     type=click.Path(path_type=Path),
     metavar="FILE",
-    help="Write the hexahedra as cells, with their patterns; FILE ends in .vtu.",
+    help="Write the hexahedra as cells, with their patterns; FILE ends in .vtu. It holds them all.",
 )
 @click.option(
     "--plot", type=click.Path(path_type=Path), metavar="FILE", help="Draw it: .png, .svg or .pdf."
@@ -117,11 +122,15 @@ def census(
     if journal and save:
         raise click.UsageError("--save keeps hexahedra, and --journal only counts them")
     _require_endings(save, plot)
+    for target in (save, plot, journal):
+        require_target(target, mesh)
     folder = existing_root(root)
     with needing("mesh"):
         from certify.mesh.census.tally import NotConfirmed
         from certify.mesh.reading import BadMesh
     if scheduler is not None:
+        if not ADDRESS.fullmatch(scheduler):
+            raise click.UsageError("--scheduler takes an address such as tcp://HOST:8786")
         with needing("cluster"):
             import distributed  # noqa: F401 - before anything is computed
     how = {"jobs": jobs, "scheduler": scheduler, "journal": journal, "size": block}
@@ -135,12 +144,12 @@ def census(
         fail(str(error), code=1)
     seconds = perf_counter() - start
     impossible = _impossible(folder, runs)
-    if plot is not None:
-        _plot(plot, runs)
     if as_json:
         print_json(_record(runs, impossible))
     else:
         _print(runs, impossible, seconds)
+    if plot is not None:
+        _plot(plot, runs)
     exit_with(not impossible)
 
 
@@ -158,6 +167,9 @@ def _meshes(path: Path | None, random: Sequence[int], seeds: int) -> Iterator[Me
         given = read_mesh(path)
         if "tetra" not in given.cells:
             raise BadMesh(f"{path}: there are no tetrahedra in it")
+        others = [f"{len(own)} {kind}" for kind, own in given.cells.items() if kind != "tetra"]
+        if others:
+            click.echo(f"left out, as they are no tetrahedra: {', '.join(others)} cells", err=True)
         yield str(path), given.points, given.cells["tetra"]
     for number in random:
         for seed in range(seeds):

@@ -24,6 +24,7 @@ from certify.cli.common import (
     print_table,
     print_wrapped,
     progress,
+    require_target,
     root_option,
 )
 from certify.printable import printable
@@ -100,6 +101,7 @@ def triangulate(
     folder = existing_root(root)
     if to is not None:
         _require_table(to)
+        require_target(to, file)
     with needing("mesh"):
         from certify.kernel.evidence import Malformed
         from certify.mesh.hexahedra import Hexahedra

@@ -14,6 +14,7 @@ from certify.cli.common import (
     columns,
     examples,
     existing_root,
+    exit_with,
     fail,
     pattern_argument,
     print_json,
@@ -23,6 +24,7 @@ from certify.cli.common import (
     root_option,
     verdict_line,
 )
+from certify.printable import printable
 
 if TYPE_CHECKING:
     from certify.kernel.certificate import Certificate
@@ -135,14 +137,15 @@ def _print_lengths(root: Path, form: str) -> None:
     if form not in ("text", "json"):
         fail(f"--all is printed as text or json, not as {form}", code=2)
     with progress() as show:
-        verdicts = run(root, report=show).verdicts
-        accepted = [v.certificate for v in verdicts if v.fault is None and v.certificate]
+        outcome = run(root, report=show)
+        accepted = [v.certificate for v in outcome.verdicts if v.fault is None and v.certificate]
         try:
             found = lengths(accepted, show)
         except BadOutline as error:
             fail(str(error), code=1)
     if form == "json":
-        print_json({"explanations": [own._asdict() for own in found]})
+        explanations = [own._asdict() for own in found]
+        print_json({"explanations": explanations, "rejected": outcome.faults})
     else:
         rows = [
             (
@@ -154,3 +157,6 @@ def _print_lengths(root: Path, form: str) -> None:
             for own in found
         ]
         print_table(("refutation", "steps", "cases", "other steps by reason"), rows)
+        for fault in outcome.faults:
+            click.echo(f"rejected: {printable(fault)}")
+    exit_with(not outcome.faults)

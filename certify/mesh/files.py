@@ -164,7 +164,8 @@ def write_mesh(path: Path, shown: Model) -> None:
 
     most = max(abs(x) for point in shown.points for x in point)
     if most > EXACT:
-        raise NotExact(f"coordinate {most} is above 2^53, up to which mesh files are exact")
+        what = f"a coordinate with {len(str(most))} digits"
+        raise NotExact(f"{what} is above 2^53, up to which mesh files are exact")
     form = FORMATS[path.suffix]
     kinds = [kind for kind in shown.kinds if form.solid or kind == "triangle"]
     blocks = [[cell for cell in shown.cells if cell.kind == kind] for kind in kinds]
@@ -201,6 +202,8 @@ def _headed(content: bytes, shown: Model, form: Format) -> bytes:
     about = f"{shown.pattern} {shown.question}, coordinates times {shown.factor}"
     if form.data and "tetra" in shown.kinds:
         about += f"; type: {_numbered(TYPES)}; facet: {_numbered(FACET_NAMES)}"
+    if "tetra" in shown.kinds and form.solid:
+        about += "; every tetrahedron has positive volume"
     heading = (form.heading % about).encode("ascii")
     headed, found = re.subn(form.title.encode("ascii"), lambda _: heading, content, count=1)
     if not found:
@@ -238,8 +241,12 @@ def _require_equal(
 
 
 @contextmanager
-def silence() -> Iterator[None]:
-    """Keep from the console what meshio says there about formats, and the warnings of numpy."""
-    with redirect_stdout(StringIO()), redirect_stderr(StringIO()), catch_warnings():
+def silence() -> Iterator[StringIO]:
+    """Keep from the console what meshio says there about formats, and the warnings of numpy.
+
+    What it says is given instead.
+    """
+    said = StringIO()
+    with redirect_stdout(said), redirect_stderr(said), catch_warnings():
         simplefilter("ignore")
-        yield
+        yield said

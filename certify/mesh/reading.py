@@ -2,7 +2,9 @@
 
 In CSV and JSON ``0.1`` is one tenth, and ``"1/3"`` a third. Other files are read by meshio, into
 floating-point numbers; each is taken for the rational number that it is. Tried are VTK, VTU, Gmsh
-(versions 2 and 4), Medit and Abaqus; whatever else meshio reads should do.
+(versions 2 and 4), Medit and Abaqus; whatever else meshio reads should do. Where a format says how
+a file ends, a file that ends otherwise is refused, for meshio would take what is left for the
+whole, or never come back.
 
 Whatever is wrong with a file is told in one line that names it.
 """
@@ -30,12 +32,32 @@ KINDS = {"tetra": 4, "pyramid": 5, "wedge": 6, "hexahedron": 8}
 MAX_TEXT = 1 << 30
 """Bytes of a CSV or JSON file: some four million hexahedra."""
 
+TAIL = 1 << 10
+"""In so many bytes the end of a file must be seen."""
+
 MAX_NUMBER = 400
 """Characters of a number in them; the longest double has 310 digits before the point."""
 
 MAX_EXPONENT = 400
 
 _NUMBER = re.compile(r"[+-]?(\d+(/\d+)?|(\d+\.?\d*|\.\d+)(?:[eE]([+-]?\d{1,4}))?)", re.ASCII)
+
+
+GMSH = (
+    rb"\$End(Comments|Elements|ElementData|ElementNodeData|Entities|GhostElements"
+    rb"|InterpolationScheme|Nodes|NodeData|Parametrizations|PartitionedEntities|Periodic"
+    rb"|PhysicalNames)\s*\Z"
+)
+"""Every part of a Gmsh file ends so; the file does with the last part."""
+
+ENDS = {
+    ".msh": (GMSH, "Gmsh's $End"),
+    **dict.fromkeys((".bdf", ".fem", ".nas"), (rb"(?im)^ENDDATA\b", "Nastran's ENDDATA")),
+}
+"""Ending of the name -> what must be found in the last bytes, and what that is."""
+
+UNENDING = (".dat", ".tec")
+"""Tecplot: meshio's reader does not come to an end if the file is shorter than it says."""
 
 
 class BadMesh(ValueError):
@@ -86,15 +108,25 @@ def read_mesh(path: Path) -> Mesh:
 
 def _mesh(path: Path) -> Mesh:
     _require_content(path)
+    _require_end(path)
     try:
-        with silence():
+        with silence() as said:
             mesh = meshio.read(path)
-    except (Exception, SystemExit) as error:  # it exits where it knows no reader that does
-        raise BadMesh(f"meshio cannot read it: {_first_line(error)}") from None
+    except SystemExit:  # it exits where it knows no reader that does
+        raise BadMesh(f"meshio cannot read it: {_first_line(said.getvalue())}") from None
+    except KeyError as error:
+        name = _first_line(str(error))
+        raise BadMesh(f"meshio cannot read it: it names {name}, which is not there") from None
+    except Exception as error:
+        words = _first_line(str(error)) or type(error).__name__
+        raise BadMesh(f"meshio cannot read it: {words}") from None
     points = _points(np.asarray(mesh.points))
+    before = 0
     for block in mesh.cells:
         if block.dim == 3 and block.type not in KINDS:
-            raise BadMesh(f"{block.type} cells are not supported, only {', '.join(KINDS)}")
+            what = f"cell {before + 1} is of the kind {block.type}"
+            raise BadMesh(f"{what}; supported are only {', '.join(KINDS)}")
+        before += len(block.data)
     found = {kind: _cells(mesh.cells, kind, width) for kind, width in KINDS.items()}
     cells = {kind: rows for kind, rows in found.items() if len(rows)}
     if not cells:
@@ -104,9 +136,23 @@ def _mesh(path: Path) -> Mesh:
     return Mesh(points, cells)
 
 
-def _first_line(error: BaseException) -> str:
-    words = str(error).strip() or type(error).__name__
-    return words.splitlines()[0][:200]
+def _first_line(words: str) -> str:
+    """Return the first line that is not empty, without the names that numpy puts before numbers."""
+    line = next(filter(None, map(str.strip, words.splitlines())), "")
+    return re.sub(r"\bnp\.\w+\((\w+)\)", r"\1", line)[:200]
+
+
+def _require_end(path: Path) -> None:
+    """Raise BadMesh if the format says how a file ends, and this one does not."""
+    ending = path.suffix.lower()
+    if ending in UNENDING:
+        raise BadMesh("files of Tecplot are not supported")
+    if ending in ENDS:
+        pattern, what = ENDS[ending]
+        with path.open("rb") as file:
+            file.seek(max(0, path.stat().st_size - TAIL))
+            if not re.search(pattern, file.read()):
+                raise BadMesh(f"it is cut off: {what} is missing at the end")
 
 
 def _require_content(path: Path) -> None:
@@ -201,7 +247,7 @@ def _text(path: Path) -> str:
 def _from_csv(text: str) -> list[Fraction]:
     """Return the coordinates in a CSV file, one after the other."""
     rows = _lines(text)
-    if rows and not any(map(_NUMBER.fullmatch, rows[0][1])):
+    if rows and not any(map(_numeric, rows[0][1])):
         del rows[0]  # a heading
     width = 24 if rows and len(rows[0][1]) == 24 else 3
     for line, words in rows:
@@ -210,6 +256,15 @@ def _from_csv(text: str) -> list[Fraction]:
     found = [_number(word, f"line {line}") for line, words in rows for word in words]
     _require_whole_hexahedra(len(found), f"{len(rows)} lines")
     return found
+
+
+def _numeric(word: str) -> bool:
+    """Is this a number, or what is called one, such as nan?"""
+    try:
+        float(word)
+    except ValueError:
+        return _NUMBER.fullmatch(word) is not None
+    return True
 
 
 def _lines(text: str) -> list[tuple[int, list[str]]]:
@@ -266,7 +321,7 @@ def _json(text: str) -> Any:
     try:
         return json.loads(text, parse_float=str, parse_int=str, parse_constant=str)
     except (ValueError, RecursionError) as error:
-        raise BadMesh(f"it is not JSON: {_first_line(error)}") from None
+        raise BadMesh(f"it is not JSON: {_first_line(str(error))}") from None
 
 
 def read_tetrahedra(path: Path) -> Tetrahedra:

@@ -1,7 +1,9 @@
 """The hexahedra that a census found, as a mesh."""
 
+import re
 from collections.abc import Sequence
 from pathlib import Path
+from shutil import copyfileobj
 
 import meshio
 import numpy as np
@@ -19,7 +21,7 @@ def write_hexahedra(
     """Write hexahedra as cells of a VTU file; they overlap, as many share tetrahedra.
 
     Each has as data the number of its tetrahedra and its pattern, counted from 1 in the order of
-    ``certify list``. Those of one pattern follow one another.
+    ``certify list``; a comment tells the names. Those of one pattern follow one another.
     """
     every = instances(root)
     number = np.array([PATTERN_NAMES.index(own.pattern) + 1 for own in every])
@@ -36,3 +38,15 @@ def write_hexahedra(
             binary=True,
             compression="zlib",
         )
+    occurring = np.unique(number[own]).tolist()
+    _name(path, "pattern: " + ", ".join(f"{k} {PATTERN_NAMES[k - 1]}" for k in occurring))
+
+
+def _name(path: Path, legend: str) -> None:
+    """Put a legend in the place of the comment that meshio writes."""
+    beside = path.with_suffix(".part")
+    with path.open("rb") as old, beside.open("wb") as new:
+        start = old.read(1 << 12)
+        new.write(re.sub(rb"<!--.*?-->", f"<!--{legend}-->".encode(), start, count=1))
+        copyfileobj(old, new)
+    beside.replace(path)
