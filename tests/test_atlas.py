@@ -11,6 +11,7 @@ from dataclasses import replace
 from functools import cache
 from html.parser import HTMLParser
 from importlib.util import find_spec
+from io import BytesIO
 from itertools import combinations
 from pathlib import Path
 from typing import Any
@@ -527,6 +528,29 @@ def far(eye: dict[str, float]) -> float:
 
 @slowly
 @needs_chromium
+@pytest.mark.parametrize("width", [1280, 390])
+@pytest.mark.parametrize("name", ["5_A", "7_A", "8_E", "15_G"])
+def test_all_of_it_is_in_sight(browser: Browser, name: str, width: int) -> None:
+    """No pixel at the rim of the view has another colour than the rest of the rim."""
+    page = browser.open(f"patterns/{name}.html", width)
+    page.wait_for_selector("#view canvas")
+    assert soon(page, lambda: len(colours(page)[1]) > 3, True)
+    rim, _ = colours(page)
+    assert len(rim) == 1
+
+
+def colours(page: Any) -> tuple[set[Any], set[Any]]:
+    """Return the colours at the rim of the view, and all of them."""
+    from matplotlib.image import imread  # noqa: PLC0415 - as above
+
+    pixels = imread(BytesIO(page.locator("#view").screenshot()))[4:-4, 4:-4]
+    rim = [*pixels[0], *pixels[-1], *pixels[:, 0], *pixels[:, -1]]
+    every = pixels[::3, ::3].reshape(-1, pixels.shape[2])
+    return set(map(tuple, map(list, rim))), set(map(tuple, every.tolist()))
+
+
+@slowly
+@needs_chromium
 def test_a_click_hides_a_tetrahedron(browser: Browser) -> None:
     page = browser.open("patterns/5_A.html")
     drawn(page)
@@ -580,7 +604,7 @@ def test_a_phone_scrolls_in_one_direction(browser: Browser, path: str) -> None:
 @slowly
 @needs_chromium
 @pytest.mark.skipif(find_spec("axe_playwright_python") is None, reason="axe is not installed")
-@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize(("scheme", "width"), [("light", 1280), ("dark", 1280), ("light", 390)])
 @pytest.mark.parametrize(
     "path",
     [
@@ -588,10 +612,10 @@ def test_a_phone_scrolls_in_one_direction(browser: Browser, path: str) -> None:
         *("checking.html", "patterns/8_E.html", "patterns/15_A.html"),
     ],
 )
-def test_accessibility(browser: Browser, path: str, scheme: str) -> None:
+def test_accessibility(browser: Browser, path: str, scheme: str, width: int) -> None:
     from axe_playwright_python.sync_playwright import Axe  # noqa: PLC0415 - as above
 
-    page = browser.open(path, scheme=scheme)
+    page = browser.open(path, width, scheme)
     page.evaluate("() => document.querySelectorAll('details').forEach((d) => (d.open = true))")
     found = Axe().run(page, options={"preload": False})  # it would fetch style sheets
     assert found.violations_count == 0, found.generate_report()

@@ -4,6 +4,7 @@ import json
 import re
 import shutil
 import subprocess
+from collections import Counter
 from collections.abc import Callable, Iterator
 from copy import deepcopy
 from functools import cache
@@ -293,8 +294,33 @@ def test_another_instance_is_explained_too(tmp_path: Path) -> None:
 
 
 def told(name: str) -> Any:
-    pattern, _, question = name.partition(".")
-    return account(explanation(name), pattern, question, certificate_of(name).tetrahedra)
+    _, _, question = name.partition(".")
+    return account(explanation(name), certificate_of(name), question)
+
+
+def test_a_final_polynomial_is_told_so_that_it_can_be_followed() -> None:
+    """Its signs are the facts that the last step uses, and its determinants cancel."""
+    for name, number in (
+        ("15_G.valid", 1),
+        ("15_F.convex", 1),
+        ("13_T.convex", 1),
+        ("15_G.convex", 2),
+    ):
+        account_ = told(name)
+        assert [final.number for final in account_.polynomials] == [*range(1, number + 1)]
+        facts = {*account_.given, *(line.says for line in account_.lines)}
+        for final in account_.polynomials:
+            assert len(facts.intersection(final.signs)) >= len(final.signs) - 1
+            surplus: Counter[str] = Counter()
+            for own in final.inequalities:
+                surplus.update({q: own.times * own.larger.count(q) for q in own.larger})
+                surplus.subtract({q: own.times * own.smaller.count(q) for q in own.smaller})
+            assert not any(surplus.values())
+            assert ">" in {own.compared for own in final.inequalities}
+        text = as_text(account_)
+        assert text.count("Final polynomial ") == number
+        assert max(map(len, text.splitlines())) <= 80
+    assert told("15_K.valid").polynomials == ()
 
 
 @every_refutation
@@ -311,7 +337,7 @@ def test_text_fits_a_terminal(name: str) -> None:
 @pytest.mark.parametrize("name", QUICK)
 def test_markdown_has_a_line_for_every_step(name: str) -> None:
     text = as_markdown(told(name))
-    assert text.count("**") == 2 * length_of(outlines()[name])[0]
+    assert text.count("- **") == length_of(outlines()[name])[0]
     assert text.count("$") % 2 == 0
 
 

@@ -161,6 +161,8 @@ def atlas(to: Path | None, serve: bool, port: int, jobs: int, root: Path | None)
     folder = existing_root(root)
     with needing("atlas"):
         from certify.atlas.site.build import write_site
+
+        import_module("plotly")
     with TemporaryDirectory() as scratch:
         place = to or Path(scratch) / "atlas"
         with progress() as show:

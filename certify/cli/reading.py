@@ -98,7 +98,7 @@ def _refutation(certificate: Certificate, question: str) -> Formats:
         explanation = explained(certificate, question)
     except BadOutline as error:
         fail(str(error), code=1)
-    told = account(explanation, certificate.pattern, question, certificate.tetrahedra)
+    told = account(explanation, certificate, question)
     return {
         "text": lambda: as_text(told, columns()),
         "markdown": lambda: as_markdown(told),

@@ -12,8 +12,10 @@ from typing import Any
 
 from certify.atlas.explain.explanation import Case, Explanation, Fact, Item, Mirror, Step
 from certify.atlas.explain.reasons import ANY, SIGN, Reason, Signs
+from certify.kernel.certificate import Certificate, No
 from certify.kernel.chirotope import RELATIONS, dependence
 from certify.kernel.hexahedron import Simplex, sorted_with_sign
+from certify.kernel.refutation import FinalPolynomial, products
 from certify.kernel.triangulation import label
 
 COMPARED = {1: "< 0", 2: "= 0", 3: "<= 0", 4: "> 0", 5: "!= 0", 6: ">= 0"}
@@ -50,13 +52,41 @@ class Line:
 
 
 @dataclass(frozen=True)
+class Inequality:
+    """An inequality between absolute values of products of two determinants.
+
+    times: how often it is multiplied; larger, smaller: two brackets; compared: ">" or ">=";
+    relation: the name of the Grassmann-Plücker relation that shows it.
+    """
+
+    times: int
+    larger: tuple[str, str]
+    compared: str
+    smaller: tuple[str, str]
+    relation: str
+
+
+@dataclass(frozen=True)
+class Polynomial:
+    """A final polynomial: the signs under which its inequalities hold, whose product is absurd."""
+
+    number: int
+    signs: tuple[str, ...]
+    inequalities: tuple[Inequality, ...]
+
+
+@dataclass(frozen=True)
 class Account:
-    """All that is said: a title, what is assumed, what that gives, and the lines."""
+    """All that is said: a title, what is assumed, what that gives, and the lines.
+
+    polynomials: the final polynomials that the lines name.
+    """
 
     title: str
     assumed: str
     given: tuple[str, ...]
     lines: tuple[Line, ...]
+    polynomials: tuple[Polynomial, ...]
 
 
 TITLES = {
@@ -76,14 +106,53 @@ NOTATION = (
 )
 
 
-def account(
-    explanation: Explanation, pattern: str, question: str, tetrahedra: Sequence[Simplex]
-) -> Account:
-    """Return in words what has been replayed."""
+POLYNOMIAL = "Under the signs"
+FOLLOWS = (
+    "these inequalities hold between absolute values, each by its Grassmann-Pluecker relation: in "
+    "it the third term has not the sign of the second, or is zero."
+)
+ABSURD = (
+    "Multiply them all, each as often as it says: every determinant occurs equally often on both "
+    "sides, and an inequality is strict, which is absurd."
+)
+
+
+def account(explanation: Explanation, certificate: Certificate, question: str) -> Account:
+    """Return in words what has been replayed of a certificate's no."""
     given = tuple(says(Fact(q, signs)) for q, signs in explanation.given.items())
-    found = tuple(_lines(explanation.steps, 0, faces_of(tetrahedra)))
-    title, assumed = (what[question].format(pattern) for what in (TITLES, ASSUMED))
-    return Account(title, assumed, given, found)
+    found = tuple(_lines(explanation.steps, 0, faces_of(certificate.tetrahedra)))
+    title, assumed = (what[question].format(certificate.pattern) for what in (TITLES, ASSUMED))
+    return Account(
+        title, assumed, given, found, tuple(_polynomials(explanation, certificate, question))
+    )
+
+
+def _polynomials(
+    explanation: Explanation, certificate: Certificate, question: str
+) -> Iterator[Polynomial]:
+    """Yield the final polynomials that steps name, as the certificate has them."""
+    answer = certificate.answers[question]
+    steps = [item.reason for item in explanation.items() if isinstance(item, Step)]
+    for number in sorted({own.vertices[0] for own in steps if own.kind == "polynomial"}):
+        assert isinstance(answer, No)  # it was replayed
+        final = answer.final_polynomials[number - 1]
+        signs = tuple(f"[{label(q)}] {COMPARED[BY_SIGN[s]]}" for q, s in final.signs.items())
+        yield Polynomial(number, signs, tuple(_inequalities(final)))
+
+
+BY_SIGN = {value: signs for signs, value in SIGN.items()}
+"""Sign -> the signs that a determinant may have if that is the only one."""
+
+
+def _inequalities(final: FinalPolynomial) -> Iterator[Inequality]:
+    for times, six in final.inequalities:
+        larger, smaller, rest = (
+            tuple(sorted_with_sign(bracket)[0] for bracket in product_)
+            for product_ in products(six)
+        )
+        compared = ">" if all(final.signs.get(q) for q in rest) else ">="
+        (a, b), (c, d) = (map(label, larger), map(label, smaller))
+        yield Inequality(times, (a, b), compared, (c, d), f"{label(six[:2])}|{label(six[2:])}")
 
 
 def _lines(items: Sequence[Item], depth: int, faces: frozenset[Simplex]) -> Iterator[Line]:
@@ -246,7 +315,21 @@ def as_text(told: Account, width: int = 80) -> str:
         first, *more = wrap(body, width - len(head))
         out += [head + first, *(" " * len(head) + part for part in more)]
         out += [f"{pad}{'':5}{row}" for row in _rows(line.terms)]
+    for final in told.polynomials:
+        words = f"{_heading(final)} {POLYNOMIAL} {', '.join(final.signs)} {FOLLOWS}"
+        out += ["", *wrap(words, width), ""]
+        for own in final.inequalities:
+            larger, smaller = (
+                "".join(f"[{name}]" for name in p) for p in (own.larger, own.smaller)
+            )
+            line_ = f"{larger} {own.compared:2} {smaller}"
+            out.append(f"{own.times:>5} x  {line_:<30}{own.relation}")
+        out += ["", *wrap(ABSURD, width)]
     return "\n".join(out)
+
+
+def _heading(final: Polynomial) -> str:
+    return f"Final polynomial {final.number}."
 
 
 def _used(line: Line) -> str:
@@ -279,7 +362,19 @@ def as_markdown(told: Account) -> str:
         out.append(
             f"{pad}- **{line.number}.** {fact}; {_words(line.because)}{_used(line)}{formula}."
         )
+    for final in told.polynomials:
+        signs = ", ".join(f"${_tex(fact)}$" for fact in final.signs)
+        out += ["", f"**{_heading(final)}** {POLYNOMIAL} {signs} {_words(FOLLOWS)}", ""]
+        out += [
+            f"- {own.times} × ${_inequality(own)}$, ${own.relation}$" for own in final.inequalities
+        ]
+        out += ["", ABSURD]
     return "\n".join(out)
+
+
+def _inequality(own: Inequality) -> str:
+    larger, smaller = (r"\,".join(f"[{name}]" for name in p) for p in (own.larger, own.smaller))
+    return rf"|{larger}| {_tex(own.compared)} |{smaller}|"
 
 
 def as_latex(told: Account) -> str:
@@ -299,7 +394,18 @@ def as_latex(told: Account) -> str:
         formula = rf" \[{_relation(line.terms)}\]" if line.terms else "."
         because = _escaped(_words(line.because))
         out.append(rf"\item[{line.number}.] {fact}; {because}{_used(line)}{formula}")
-    return "\n".join([*out, *[LATEX_END] * (depth + 1), LATEX_TAIL])
+    out += [LATEX_END] * (depth + 1)
+    for final in told.polynomials:
+        signs = ", ".join(f"${_tex(fact)}$" for fact in final.signs)
+        follows = _escaped(_words(FOLLOWS))
+        out += ["", r"\medskip", rf"\textbf{{{_heading(final)}}} {POLYNOMIAL} {signs} {follows}"]
+        out.append(LATEX_BEGIN)
+        out += [
+            rf"\item[${own.times} \times$] ${_inequality(own)}$, ${own.relation}$"
+            for own in final.inequalities
+        ]
+        out += [LATEX_END, ABSURD]
+    return "\n".join([*out, LATEX_TAIL])
 
 
 LATEX_HEAD = r"""\documentclass[a4paper]{article}

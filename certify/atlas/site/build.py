@@ -23,7 +23,7 @@ from certify.atlas.draw.picture import STYLE_SHEET, svg
 from certify.atlas.explain.outlines import explained
 from certify.atlas.explain.witness import witness
 from certify.atlas.explain.witness_words import Page, page
-from certify.atlas.explain.words import FORMULA, NOTATION, Account, account
+from certify.atlas.explain.words import ABSURD, FOLLOWS, FORMULA, NOTATION, Account, account
 from certify.atlas.site.records import (
     Pattern,
     findings_by_pattern,
@@ -119,7 +119,7 @@ def _told(pattern: Pattern, question: str) -> Account | Page | None:
     match pattern.answer(question):
         case "no":
             explanation = explained(certificate, question)
-            return account(explanation, pattern.name, question, certificate.tetrahedra)
+            return account(explanation, certificate, question)
         case "yes":
             return page(witness(certificate, question), pattern.name)
     return None
@@ -150,6 +150,8 @@ class _Pages:
             "menu": MENU,
             "names": frozenset(self._names),
             "notation": NOTATION,
+            "follows": FOLLOWS,
+            "absurd": ABSURD,
             "patterns": patterns,
             "questions": QUESTIONS,
             "sizes": sorted({pattern.size for pattern in patterns}),

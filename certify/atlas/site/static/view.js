@@ -27,9 +27,17 @@
   const GRID = 13;
   /** @type {Set<number>} */
   const hidden = new Set();
+  /** What is drawn fits into a sphere of the diameter 1; so far away all of it is in sight. */
+  function farEnough() {
+    const half = Math.tan(Math.PI / 8); // plotly's angle of view, from bottom to top, is 45 degrees
+    const narrow = Math.min(1, view.clientWidth / Math.max(1, view.clientHeight));
+    return 0.5 / Math.sin(Math.atan(half * narrow));
+  }
+
+  const from = farEnough() / Math.hypot(0.9, -1.3, 0.75);
   /** From where it is looked at; plotly tells when the reader turns it. */
   let camera = {
-    eye: { x: 0.9, y: -1.3, z: 0.75 },
+    eye: { x: 0.9 * from, y: -1.3 * from, z: 0.75 * from },
     center: { x: 0, y: 0, z: 0 },
     up: { x: 0, y: 0, z: 1 },
     projection: { type: "perspective" },
@@ -151,7 +159,18 @@
     }));
   }
 
-  /** Vertex numbers: once at each place where a shown tetrahedron has the vertex. */
+  /** The sides of the box around points, over the diameter of the sphere around its middle. */
+  function proportions(/** @type {number[][]} */ points) {
+    const axes = [0, 1, 2].map((axis) => column(points, axis));
+    const [low, high] = [axes.map((a) => Math.min(...a)), axes.map((a) => Math.max(...a))];
+    const away = (/** @type {number[]} */ p) =>
+      Math.hypot(...p.map((x, axis) => x - (low[axis] + high[axis]) / 2));
+    const radius = Math.max(...points.map(away));
+    const [x, y, z] = high.map((h, axis) => (h - low[axis]) / (2 * radius));
+    return { ratio: { x, y, z }, radius };
+  }
+
+  /** Vertex numbers: once at each place where a shown tetrahedron has the vertex, a bit outside. */
   function numbers(/** @type {Point[]} */ points, /** @type {number} */ apart) {
     /** @type {Map<string, {at: number[], text: string}>} */
     const labels = new Map();
@@ -162,17 +181,24 @@
       });
     });
     const all = [...labels.values()];
+    const whole = middle(points);
+    const { radius } = proportions(points);
+    const outside = (/** @type {number[]} */ at) => {
+      const away = at.map((x, axis) => x - whole[axis]);
+      const by = 1 + (0.09 * radius) / (Math.hypot(...away) || 1);
+      return away.map((x, axis) => whole[axis] + by * x);
+    };
+    const places = all.map((label) => outside(label.at));
     return {
       type: "scatter3d",
-      mode: "markers+text",
+      mode: "text",
       name: "vertices",
-      x: all.map((label) => label.at[0]),
-      y: all.map((label) => label.at[1]),
-      z: all.map((label) => label.at[2]),
+      x: column(places, 0),
+      y: column(places, 1),
+      z: column(places, 2),
       text: all.map((label) => label.text),
-      textposition: "top center",
+      textposition: "middle center",
       textfont: { size: apart ? 12 : 16, color: colour("ink") },
-      marker: { size: 3, color: colour("ink") },
       hoverinfo: "skip",
     };
   }
@@ -225,6 +251,7 @@
       ...(curved ? facets(points, coloured) : []),
     ];
     if (!curved) element("scale").hidden = true;
+    const drawn = scene.tetrahedra.flatMap((_, k) => moved(points, k, apart));
     const axis = { visible: false, showspikes: false };
     const layout = {
       margin: { l: 0, r: 0, t: 0, b: 0 },
@@ -234,7 +261,8 @@
         xaxis: axis,
         yaxis: axis,
         zaxis: axis,
-        aspectmode: "data",
+        aspectmode: "manual",
+        aspectratio: proportions(drawn).ratio,
         camera,
       },
       hoverlabel: { font: { size: 14 } },
