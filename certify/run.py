@@ -1,4 +1,8 @@
-"""Certificates on disk -> the kernel -> an outcome fit to print. Nothing here is trusted."""
+"""Certificates on disk -> the kernel -> an outcome fit to print.
+
+Whoever runs the kernel by ``certify`` trusts that this hands its verdicts back to it unchanged,
+from this process or others. ``python -m certify.kernel`` does without.
+"""
 
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path

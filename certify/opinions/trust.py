@@ -32,8 +32,10 @@ RECORDS = {
 
 LIMITS = (
     "The kernel's mathematics, sections 4 to 8 of CHECKING.md, is argued in words. Coq proves the "
-    "same theorems of the same files (section 13), in part by other lemmas; it has not read the "
+    "main theorems of the same files (section 13), in part by other lemmas; it has not read the "
     "kernel.",
+    "Here certify/run.py and certify/processes.py hand the kernel its patterns, and its verdicts "
+    "back to it. python -m certify.kernel does without them.",
     "The second opinions were written by the same people, although from the documents and without "
     "a line of the kernel. The outside checkers were not.",
     "Forgeries and mutants try the program, not its mathematics.",

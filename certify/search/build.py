@@ -48,7 +48,9 @@ def build(root: Path, jobs: int, report: Report) -> None:
     """Put certificates/ and proofs/, found anew, below ``root``, which is created if need be.
 
     They replace old ones at the end, file by file, and old certificates and proofs that were not
-    found again are removed; an interrupted build changes nothing. What is found depends on the code
+    found again are removed. A build that is interrupted before the end changes nothing; at the very
+    end, between two renames, some files are new and others old, each of them whole, and the digests
+    in the certificates tell. What is found depends on the code
     and the libraries' versions, not on the number of jobs or on how a machine rounds: every pattern
     has a random generator of its own, seeded by its position; there is no time limit; points are
     sought in integers; and linear programs have one cheapest solution.

@@ -413,12 +413,14 @@ LATEX_HEAD = r"""\documentclass[a4paper]{article}
 \usepackage{amsmath}
 \setlength{\parindent}{0pt}
 \begin{document}
-\raggedright"""
+\raggedright
+\abovedisplayskip=2pt \belowdisplayskip=2pt"""
 LATEX_NOTATION = (
     r"$[abcd]$ is the determinant of $p_b - p_a$, $p_c - p_a$, $p_d - p_a$. Its sign, as far as it "
     "is known, is written at a bracket. Numbers in parentheses are those of earlier steps."
 )
-LATEX_BEGIN, LATEX_END, LATEX_TAIL = r"\begin{itemize}", r"\end{itemize}", r"\end{document}"
+LATEX_BEGIN = r"\begin{itemize}\setlength{\itemsep}{0pt}\setlength{\parskip}{0pt}"
+LATEX_END, LATEX_TAIL = r"\end{itemize}", r"\end{document}"
 
 
 def _escaped(text: str) -> str:

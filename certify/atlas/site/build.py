@@ -275,11 +275,13 @@ def _licence() -> bytes:
 def checking() -> str:
     """Return CHECKING.md as HTML, its sections with anchors.
 
-    Links to files that the site does not have become plain text.
+    Links to files that the site does not have become plain text. What may be wider than a phone is
+    reached by the keyboard, and scrolls.
     """
     source = (default_root() / "CHECKING.md").read_text("utf-8")
     html: str = MarkdownIt("commonmark").enable("table").render(source)
     html = re.sub(r"<h([2-4])>(.*?)</h\1>", _with_anchor, html)
+    html = re.sub(r"<(pre|table)>", r'<\1 tabindex="0">', html)
     return re.sub(r'<a href="(?!#|https?:)[^"]*">(.*?)</a>', r"\1", html)
 
 
