@@ -9,6 +9,7 @@ import os
 import re
 import shlex
 import shutil
+import signal
 import subprocess
 import sys
 from collections.abc import Iterable, Mapping
@@ -96,7 +97,13 @@ def build(folder: Path, *targets: str) -> "subprocess.CompletedProcess[str]":
         errors="replace",
         timeout=SECONDS,
         check=False,
+        preexec_fn=_interruptible if os.name == "posix" else None,
     )
+
+
+def _interruptible() -> None:
+    """Let an interrupt end make and Coq, too: the processes that work for us ignore it."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 def refusal(error: str) -> str:
