@@ -192,6 +192,14 @@ def test_bad_requests(
     assert err.count("\n") == 1
 
 
+def test_a_folder_of_something_else_is_left_alone(shipped: Path, tmp_path: Path) -> None:
+    (tmp_path / "index.html").write_text("mine")
+    code, out, err = run(shipped, "atlas", "--to", str(tmp_path))
+    assert (code, out) == (2, "")
+    assert err == f"certify: {tmp_path} is neither empty nor an atlas\n"
+    assert [path.name for path in tmp_path.iterdir()] == ["index.html"]
+
+
 def test_nothing_is_written_of_what_is_rejected(root: Path, tmp_path: Path) -> None:
     (root / "proofs" / "15_A.valid.lrat").write_text("1 0 0\n")
     code, out, err = run(root, "atlas", "--to", str(tmp_path / "site"))
