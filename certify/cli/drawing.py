@@ -158,9 +158,8 @@ def atlas(to: Path | None, serve: bool, port: int, jobs: int, root: Path | None)
 
     if to is None and not serve:
         fail("nothing to do: give --to DIR, or --serve, or both", code=2)
-    if to is not None and to.is_dir() and not (to / "static" / "view.js").exists():
-        if any(to.iterdir()):
-            fail(f"{to} is neither empty nor an atlas", code=2)
+    if to is not None and to.is_dir() and not _may_hold_an_atlas(to):
+        fail(f"{to} is neither empty nor an atlas", code=2)
     folder = existing_root(root)
     with needing("atlas"):
         from certify.atlas.site.build import write_site
@@ -180,6 +179,10 @@ def atlas(to: Path | None, serve: bool, port: int, jobs: int, root: Path | None)
             click.echo(f"atlas: {printable(str(place / 'index.html'))}")
         if serve:
             _serve(place, port)
+
+
+def _may_hold_an_atlas(folder: Path) -> bool:
+    return (folder / "static" / "view.js").exists() or not any(folder.iterdir())
 
 
 def _serve(folder: Path, port: int) -> None:
