@@ -164,8 +164,8 @@ def write_mesh(path: Path, shown: Model) -> None:
 
     most = max(abs(x) for point in shown.points for x in point)
     if most > EXACT:
-        what = f"a coordinate with {len(str(most))} digits"
-        raise NotExact(f"{what} is above 2^53, up to which mesh files are exact")
+        told = str(most) if most < 10**40 else f"with {len(str(most))} digits"
+        raise NotExact(f"coordinate {told} is above 2^53, up to which mesh files are exact")
     form = FORMATS[path.suffix]
     kinds = [kind for kind in shown.kinds if form.solid or kind == "triangle"]
     blocks = [[cell for cell in shown.cells if cell.kind == kind] for kind in kinds]
