@@ -290,7 +290,8 @@ def test_a_file_says_what_its_numbers_mean(tmp_path: Path, ending: str) -> None:
     assert (
         b"8_E valid, coordinates times 1; "
         b"type: 1 corner, 2 staircase, 3 slanted, 4 core, 5 core diagonal; "
-        b"facet: 1 1234, 2 1256, 3 1458, 4 2367, 5 3478, 6 5678; every tetrahedron has positive volume\n"
+        b"facet: 1 1234, 2 1256, 3 1458, 4 2367, 5 3478, 6 5678; "
+        b"every tetrahedron has positive volume\n"
     ) in path.read_bytes().replace(b"-->", b"\n")
     if ending == ".msh":
         groups = {name: group.tolist() for name, group in meshio.read(path).field_data.items()}
