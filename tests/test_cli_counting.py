@@ -123,7 +123,11 @@ def test_hexahedra_are_saved(tmp_path: Path) -> None:
     data = meshio.read(path).cell_data
     sizes = data["tetrahedra"][0].tolist()
     assert sizes == sorted(sizes)
-    assert len(set(data["pattern"][0].tolist())) == len(found["runs"][0]["patterns"])
+    numbers = sorted(set(data["pattern"][0].astype(int).tolist()))
+    legend = ", ".join(
+        f"{k} {name}" for k, name in zip(numbers, found["runs"][0]["patterns"], strict=True)
+    )
+    assert f"<!--pattern: {legend}-->".encode() in path.read_bytes()
 
 
 @pytest.mark.parametrize("ending", ["png", "svg", "pdf"])

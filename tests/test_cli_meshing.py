@@ -117,6 +117,15 @@ def test_usage_errors(three: Path, words: str, message: str) -> None:
     assert_usage_error(run(CHECKOUT, "triangulate", str(three), *words.split()), message)
 
 
+def test_the_file_that_is_read_is_never_replaced(three: Path) -> None:
+    content = three.read_bytes()
+    path = three.with_suffix(".csv")
+    path.write_bytes(content)
+    outcome = run(CHECKOUT, "triangulate", str(path), "--to", str(path))
+    assert_usage_error(outcome, f"{path} is the file that is read")
+    assert path.read_bytes() == content
+
+
 def test_files_that_are_not_there(tmp_path: Path) -> None:
     for command in ("triangulate", "name"):
         outcome = run(CHECKOUT, command, str(tmp_path / "new.json"))
