@@ -132,10 +132,10 @@ def _polynomials(
 ) -> Iterator[Polynomial]:
     """Yield the final polynomials that steps name, as the certificate has them."""
     answer = certificate.answers[question]
+    polynomials = answer.final_polynomials if isinstance(answer, No) else ()
     steps = [item.reason for item in explanation.items() if isinstance(item, Step)]
     for number in sorted({own.vertices[0] for own in steps if own.kind == "polynomial"}):
-        assert isinstance(answer, No)  # it was replayed
-        final = answer.final_polynomials[number - 1]
+        final = polynomials[number - 1]
         signs = tuple(f"[{label(q)}] {COMPARED[BY_SIGN[s]]}" for q, s in final.signs.items())
         yield Polynomial(number, signs, tuple(_inequalities(final)))
 
