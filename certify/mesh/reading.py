@@ -113,7 +113,8 @@ def _mesh(path: Path) -> Mesh:
         with silence() as said:
             mesh = meshio.read(path)
     except SystemExit:  # it exits where it knows no reader that does
-        raise BadMesh(f"meshio cannot read it: {_first_line(said.getvalue())}") from None
+        words = _first_line(said.getvalue()) or "it says no more"
+        raise BadMesh(f"meshio cannot read it: {words}") from None
     except KeyError as error:
         name = _first_line(str(error))
         raise BadMesh(f"meshio cannot read it: it names {name}, which is not there") from None
