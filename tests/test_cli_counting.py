@@ -107,7 +107,7 @@ def test_cells_that_are_left_out_are_told(tmp_path: Path) -> None:
     cells = [("tetra", FIVE), ("hexahedron", [[*range(8, 16)]])]
     meshio.write(path, meshio.Mesh(points, cells))
     code, out, err = run(CHECKOUT, "census", str(path))
-    assert (code, err) == (0, "left out, as they are no tetrahedra: 1 hexahedron cells\n")
+    assert (code, err) == (0, "left out, as they are no tetrahedra: 1 hexahedron cell\n")
     assert "1 valid hexahedra" in " ".join(out.split())
 
 

@@ -167,9 +167,11 @@ def _meshes(path: Path | None, random: Sequence[int], seeds: int) -> Iterator[Me
         given = read_mesh(path)
         if "tetra" not in given.cells:
             raise BadMesh(f"{path}: there are no tetrahedra in it")
-        others = [f"{len(own)} {kind}" for kind, own in given.cells.items() if kind != "tetra"]
+        others = [
+            plural(len(own), f"{kind} cell") for kind, own in given.cells.items() if kind != "tetra"
+        ]
         if others:
-            click.echo(f"left out, as they are no tetrahedra: {', '.join(others)} cells", err=True)
+            click.echo(f"left out, as they are no tetrahedra: {', '.join(others)}", err=True)
         yield str(path), given.points, given.cells["tetra"]
     for number in random:
         for seed in range(seeds):

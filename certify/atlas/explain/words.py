@@ -108,8 +108,10 @@ NOTATION = (
 
 POLYNOMIAL = "Under the signs"
 FOLLOWS = (
-    "these inequalities hold between absolute values, each by its Grassmann-Pluecker relation: in "
-    "it the third term has not the sign of the second, or is zero."
+    "these inequalities hold between absolute values. Beside each is the name of its "
+    "Grassmann-Pluecker relation: with A = [stab][stcd], B = [stac][stbd] and C = [stad][stbc], "
+    "for the vertices s, t, a, b, c, d of the name, it says A = B - C. Here B is not zero, and C "
+    "has not its sign, so that A is in absolute value the sum of both."
 )
 ABSURD = (
     "Multiply them all, each as often as it says: every determinant occurs equally often on both "

@@ -23,7 +23,15 @@ from certify.atlas.draw.picture import STYLE_SHEET, svg
 from certify.atlas.explain.outlines import explained
 from certify.atlas.explain.witness import witness
 from certify.atlas.explain.witness_words import Page, page
-from certify.atlas.explain.words import ABSURD, FOLLOWS, FORMULA, NOTATION, Account, account
+from certify.atlas.explain.words import (
+    ABSURD,
+    FOLLOWS,
+    FORMULA,
+    NOTATION,
+    POLYNOMIAL,
+    Account,
+    account,
+)
 from certify.atlas.site.records import (
     Pattern,
     findings_by_pattern,
@@ -150,6 +158,7 @@ class _Pages:
             "menu": MENU,
             "names": frozenset(self._names),
             "notation": NOTATION,
+            "under": POLYNOMIAL,
             "follows": FOLLOWS,
             "absurd": ABSURD,
             "patterns": patterns,
